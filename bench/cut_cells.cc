@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/random_cells.h"
-#include "wheelwright/cut/cell_quadrature.h"
+#include "wheelwright/shape/cut/cell_quadrature.h"
 
 namespace wheelwright {
 namespace {

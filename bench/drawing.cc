@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "wheelwright/drawing/composed_level_set.h"
-#include "wheelwright/drawing/parts.h"
+#include "wheelwright/cad/drawing/composed_level_set.h"
+#include "wheelwright/cad/drawing/parts.h"
 
 using namespace wheelwright;
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/wheelwright.h"
 
 namespace wheelwright::bench {

@@ -12,9 +12,9 @@
 #include <random>
 #include <string>
 
-#include "wheelwright/evolution/volume.h"
-#include "wheelwright/optimize/constraints.h"
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/shape/evolution/volume.h"
 #include "wheelwright/wheelwright.h"
 
 namespace wheelwright::bench {

@@ -13,9 +13,10 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/process_settings.h"
 #include "wheelwright/base/stopwatch.h"
-#include "wheelwright/contact/newton_tangent.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
+#include "wheelwright/mechanics/contact/newton_tangent.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/evolver.h"
 
 namespace wheelwright::bench {
 namespace {
@@ -147,9 +148,9 @@ void contact_operators(benchmark::State& state, const Wheel& wheel, const Rollin
     const SurfaceCompliance<2> surface(solution.ring, wheel.problem().tread(), solution.surface->width());
     std::vector<ReducedContact<2>> contacts;
     for (size_t i = 0; i < solution.contacts.size(); ++i)
-      contacts.emplace_back(surface, wheel.problem().tread(), wheel.problem().model().grid,
-                            solution.positions.grounds[i], solution.contacts[i].zone(),
-                            solution.contacts[i].rim());
+      contacts.push_back(reduced_contact<2>(surface, wheel.problem().tread(), wheel.problem().model().grid,
+                                            solution.positions.grounds[i], solution.contacts[i].zone(),
+                                            std::make_shared<CoulombLaw<2>>(0), solution.contacts[i].rim()));
     return contacts;
   });
 }
@@ -160,7 +161,7 @@ void newton(benchmark::State& state, const RollingSolution<2>& solution, Samples
     std::vector<std::optional<ContactUnknowns<2>>> steps;
     for (size_t i = 0; i < solution.contacts.size(); ++i) {
       const auto& contact = solution.contacts[i];
-      const auto x = contact.start_from(solution.states[i]);
+      const auto x = start_from(contact, solution.states[i]);
       steps.push_back(NewtonTangent<2>(contact).step(x, contact.residual(x)));
     }
     return steps;

@@ -21,10 +21,10 @@
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/rolling/half_width_solver.h"
-#include "wheelwright/rolling/turned_state.h"
+#include "wheelwright/mechanics/rolling/half_width_solver.h"
+#include "wheelwright/mechanics/rolling/turned_state.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/geometry/mirror.h"
 
 namespace wheelwright::bench {
 namespace {

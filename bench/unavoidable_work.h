@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/mechanics/rolling/rolling_problem.h"
 
 namespace wheelwright::bench {
 

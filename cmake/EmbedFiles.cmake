@@ -1,6 +1,6 @@
 # Writes a C++ source with the contents of files, one after another, as string constants. Called as a script:
 #   cmake -D OUTPUT=page_assets.cc -D "FILES=report_html=PATH;report_js=PATH|PATH" -P EmbedFiles.cmake
-set(source "#include \"wheelwright/page/assets.h\"\n\nnamespace wheelwright::assets {\n\n")
+set(source "#include \"wheelwright/output/page/assets.h\"\n\nnamespace wheelwright::assets {\n\n")
 foreach(entry IN LISTS FILES)
   string(REGEX MATCH "^([a-z_]+)=(.*)$" entry "${entry}")
   string(APPEND source "const std::string_view ${CMAKE_MATCH_1} =")

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/volume.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/volume.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "tests/support.h"
 #include "tests/von_mises.h"
-#include "wheelwright/analysis/deformation_size.h"
-#include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/report/rolling_report.h"
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/state/strain_peaks.h"
+#include "wheelwright/mechanics/state/strain_peaks.h"
+#include "wheelwright/output/report/rolling_report.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/quantities/analysis/rolling_analysis.h"
 
 namespace wheelwright {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wheelwright/cut/cut_domain.h"
+#include "wheelwright/shape/cut/cut_domain.h"
 
 namespace wheelwright {
 namespace {

@@ -6,12 +6,12 @@
 #include <random>
 
 #include "tests/support.h"
-#include "wheelwright/functionals/column_shift.h"
-#include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/geometry/gauss.h"
+#include "wheelwright/quantities/functionals/column_shift.h"
+#include "wheelwright/quantities/functionals/mean_contact_stress.h"
+#include "wheelwright/quantities/functionals/uniformity_annulus.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/quantities/functionals/uniformity_l2.h"
+#include "wheelwright/shape/geometry/gauss.h"
 
 namespace wheelwright {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheelwright/evolution/boundary_motion.h"
+#include "wheelwright/shape/evolution/boundary_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -6,13 +6,13 @@
 #include <random>
 
 #include "tests/deformations.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/deformation_space.h"
-#include "wheelwright/evolution/spline_level_set.h"
-#include "wheelwright/evolution/transport.h"
-#include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/shapes.h"
 #include "wheelwright/linalg/dense.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/deformation_space.h"
+#include "wheelwright/shape/evolution/spline_level_set.h"
+#include "wheelwright/shape/evolution/transport.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

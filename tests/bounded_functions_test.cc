@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/study.h"
 

@@ -7,7 +7,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/quantities/functionals/strain_energy.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

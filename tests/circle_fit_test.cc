@@ -1,4 +1,4 @@
-#include "wheelwright/cad/circle_fit.h"
+#include "wheelwright/cad/outline/circle_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/evolution/feature_size.h"
-#include "wheelwright/evolution/medial_balls.h"
-#include "wheelwright/geometry/topology.h"
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/evolution/feature_size.h"
+#include "wheelwright/shape/evolution/medial_balls.h"
+#include "wheelwright/shape/geometry/topology.h"
 
 namespace wheelwright {
 namespace {

@@ -18,11 +18,11 @@
 #include "tests/run_support.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/guarded.h"
-#include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/geometry/topology.h"
 #include "wheelwright/run/folder_lock.h"
+#include "wheelwright/run/problem_size.h"
+#include "wheelwright/shape/geometry/topology.h"
 
 namespace wheelwright::testing {
 namespace {
@@ -493,7 +493,7 @@ TEST_F(CommandLine, TheEstimateOfTheMemoryIsRightToAQuarter) {
         "[grid]\nradial_cells = 56\nangular_cells = 768\n",
         "[wheel]\nsectors = 1\n[grid]\nradial_cells = 28\nangular_cells = 384\n"}) {  // each takes more
     std::ofstream(folder() / "case.toml") << sections << holes;
-    const double estimate = estimated_memory(*read_case(folder() / "case.toml").value);
+    const double estimate = estimated_memory(problem_size(*read_case(folder() / "case.toml").value));
     const Outcome run =
         wheelwright(fmt::format("run case.toml --iterations 0 --output {}", ++run_number), folder());
     ASSERT_EQ(run.code, exit_done) << run.output;

@@ -6,7 +6,9 @@
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/command_log.h"
 #include "wheelwright/run/command_queue.h"
+#include "wheelwright/run/command_reference.h"
 #include "wheelwright/run/run.h"
 
 namespace wheelwright::testing {
@@ -446,26 +448,80 @@ TEST_F(RunTest, ARefusedCommandChangesNothing) {
   expect_equal_results(folder() / "straight", run);
 }
 
-/// A command of the test, in no list of the program: what stands in a file of its own otherwise. The one line
-/// that hands it to the run is the push of Custom below; a command of the program would be named by one line
-/// in the list `Command` (run/command.h) instead.
+/// A command of the test, in no list of the program: what stands in a file of its own otherwise. It is known
+/// by one line, the one in with_postcards().
 struct WritePostcard {
-  fs::path file;
+  static constexpr const char *name = "write_postcard", *meaning = "greets from a shape";
+  std::string file;
+  int first_shape = 0;
 
+  CommandFields fields() {
+    return {{"file", "", &file}, {"first_shape", "from which it is allowed", &first_shape}};
+  }
   CommandResult execute(RunControl& run) const {
+    if (run.iteration() < first_shape) return Refusal{"it is too early for a postcard"};
     std::ofstream(file) << "greetings from shape " << run.iteration();
     return std::string("wrote a postcard");
   }
 };
 
-TEST_F(RunTest, ExecutesCustomCommands) {
+CommandKinds with_postcards() {
+  CommandKinds kinds = commands_of_every_run();
+  kinds.push_back(command_kind<WritePostcard>());
+  return kinds;
+}
+
+TEST_F(RunTest, OwnCommandIsExecutedLoggedAndReplayed) {
+  const fs::path postcard = folder() / "postcard";
+  {
+    CommandQueue commands;
+    Recorder::Record record;
+    auto run = TheRun::begin(the_case(small_case(4)), folder() / "run");
+    ASSERT_TRUE(run);
+    run->add(std::make_unique<CommandLog<2>>());
+    execute(std::move(run), commands, record, after_shape(2, commands, WritePostcard{postcard, 2}));
+    EXPECT_EQ(content(postcard), "greetings from shape 2");
+    EXPECT_EQ(record.executed.size(), 1u);
+  }
+  fs::remove(postcard);
+  const std::string text = content(folder() / "run" / command_log_file);
+  EXPECT_FALSE(parse_command_log(text));
+  auto log = parse_command_log(text, with_postcards());
+  ASSERT_TRUE(log);
+  ASSERT_EQ(log->size(), 1u);
+  auto replay = std::make_unique<CommandReplay<2>>(*std::move(log));
+  CommandQueue commands;
+  commands.add_source(replay->source());
+  auto again = TheRun::begin(the_case(small_case(4)), folder() / "again");
+  ASSERT_TRUE(again);
+  again->add(std::make_unique<CommandLog<2>>());
+  again->add(std::move(replay));
+  Recorder::Record record;
+  execute(std::move(again), commands, record);
+  EXPECT_EQ(content(postcard), "greetings from shape 2");
+  expect_equal_results(folder() / "run", folder() / "again");
+}
+
+TEST_F(RunTest, RefusedOwnCommandGivesItsReason) {
   CommandQueue commands;
   Recorder::Record record;
-  const WritePostcard postcard{folder() / "postcard"};
+  const WritePostcard early{folder() / "postcard", 3};
   execute(TheRun::begin(the_case(small_case(4)), folder() / "run"), commands, record,
-          after_shape(2, commands, Custom{[=](RunControl& run) { return postcard.execute(run); }}));
-  EXPECT_EQ(content(postcard.file), "greetings from shape 2");
-  EXPECT_EQ(record.executed.size(), 1u);
+          after_shape(2, commands, early));
+  EXPECT_EQ(record.refused, std::vector<std::string>{"it is too early for a postcard"});
+  EXPECT_FALSE(fs::exists(early.file));
+}
+
+TEST(CommandReference, HasEveryCommandAndField) {
+  const CommandKinds kinds = with_postcards();
+  const std::string reference = command_reference_markdown(kinds);
+  for (const CommandKind& kind : kinds) {
+    EXPECT_NE(reference.find(fmt::format("## {}\n", kind.name)), std::string::npos) << kind.name;
+    kind.make([&](const CommandFields& fields) {
+      for (const CommandField& field : fields)
+        EXPECT_NE(reference.find(fmt::format("| `{}` |", field.key)), std::string::npos) << field.key;
+    });
+  }
 }
 
 TEST(CommandQueue, KeepsTheOrderAndPollsItsSources) {
@@ -477,10 +533,10 @@ TEST(CommandQueue, KeepsTheOrderAndPollsItsSources) {
   queue.push(Pause{});
   queue.push(Stop{});
   EXPECT_EQ(queue.waiting_stops(), 1);
-  EXPECT_TRUE(std::holds_alternative<Pause>(*queue.take()));
-  EXPECT_TRUE(std::holds_alternative<Stop>(queue.wait()));
+  EXPECT_TRUE(queue.take()->is<Pause>());
+  EXPECT_TRUE(queue.wait().is<Stop>());
   EXPECT_EQ(queue.waiting_stops(), 0);
-  EXPECT_TRUE(std::holds_alternative<Save>(*queue.take()));
+  EXPECT_TRUE(queue.take()->is<Save>());
   EXPECT_FALSE(queue.take());
 }
 
@@ -504,7 +560,7 @@ TEST(CommandQueue, LosesNothingBetweenThreads) {
     users.emplace_back([&] {
       for (int k = 0; k < each; ++k) queue.push(Step{});
     });
-  for (int k = 0; k < 3 * each; ++k) EXPECT_TRUE(std::holds_alternative<Step>(queue.wait()));
+  for (int k = 0; k < 3 * each; ++k) EXPECT_TRUE(queue.wait().is<Step>());
   for (auto& user : users) user.join();
   EXPECT_FALSE(queue.take());
 }

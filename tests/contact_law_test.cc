@@ -1,11 +1,10 @@
-#include "wheelwright/contact/contact_law.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "wheelwright/elasticity/contact_form.h"
+#include "wheelwright/mechanics/contact/contact_responses.h"
+#include "wheelwright/mechanics/elasticity/contact_form.h"
 
 namespace wheelwright {
 namespace {

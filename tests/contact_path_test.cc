@@ -1,4 +1,4 @@
-#include "wheelwright/contact/contact_path.h"
+#include "wheelwright/mechanics/contact/contact_path.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,9 @@
 
 #include "tests/random_wheels.h"
 #include "tests/support.h"
-#include "wheelwright/contact/contact_solver.h"
-#include "wheelwright/contact/newton_tangent.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
+#include "wheelwright/mechanics/contact/newton_tangent.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -70,9 +71,9 @@ TEST(ContactPath, LeadsFromAnyStartToNewtonsSolution) {
   const double disc = model.materials.at_tread().contact_modulus();
   std::vector<ContactUnknowns<2>> starts;
   for (const double load : {0.1, 1.0, 100.0})
-    starts.push_back(contact.hertz_start(load * model.load, model.grid.outer_radius, disc));
-  starts.push_back(contact.touching(contact.undeformed_start()));  // all but one point are open
-  starts.push_back(contact.start_from(state));
+    starts.push_back(hertz_start(contact, load * model.load, model.grid.outer_radius, disc));
+  starts.push_back(touching(contact, undeformed_start(contact)));  // all but one point are open
+  starts.push_back(start_from(contact, state));
   for (size_t k = 0; k < starts.size(); ++k) {
     const PathEnd<2> end = follow_path(contact, starts[k]);
     ASSERT_TRUE(end.arrives) << k;
@@ -111,8 +112,8 @@ TEST(ContactPath, StopsOnRequest) {
   const auto s = problem->solve(one_hole(model));
   ASSERT_TRUE(s) << s.failure().detail;
   const ReducedContact<2>& contact = s->contacts[0];
-  const auto start = contact.hertz_start(10 * model.load, model.grid.outer_radius,
-                                         model.materials.at_tread().contact_modulus());
+  const auto start = hertz_start(contact, 10 * model.load, model.grid.outer_radius,
+                                 model.materials.at_tread().contact_modulus());
   const PathEnd<2> end = follow_path(contact, start, Interrupt([] { return true; }));
   EXPECT_FALSE(end.arrives);
   EXPECT_EQ(end.turns, 0);
@@ -177,7 +178,7 @@ TEST(NewtonTangent, IsTheTangentOfEveryIterate) {
   const auto expect_equal_steps = [&](const ContactUnknowns<2>& x) {
     const auto residual = contact.residual(x);
     const auto corrected = tangent.step(x, residual);
-    const auto factored = contact.tangent(x);
+    const auto factored = ContactTangent<2>::at(contact, x);
     ASSERT_TRUE(corrected && factored);
     const auto expected = factored->solve(residual);
     double size = 0, difference = 0;
@@ -190,7 +191,7 @@ TEST(NewtonTangent, IsTheTangentOfEveryIterate) {
     for (size_t k = 0; k < expected.rim.size(); ++k)
       EXPECT_NEAR(corrected->rim[k], expected.rim[k], 1e-9 * std::abs(expected.rim[k]) + 1e-15);
   };
-  ContactUnknowns<2> x = contact.start_from(s->states[0]);
+  ContactUnknowns<2> x = start_from(contact, s->states[0]);
   expect_equal_steps(x);
   const int n = contact.n_points();
   for (int changed = 1; changed < n; changed *= 3) {  // few points, and so many that it is factored anew

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "tests/support.h"
-#include "wheelwright/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
 
 namespace wheelwright {
 namespace {
@@ -28,13 +29,13 @@ Expected<ContactState<2>, ContactFailure> solved_in(const RollingProblem<2>& pro
                                                     const RollingSolution<2>& s, int position,
                                                     const RimControl& rim, ContactZone zone) {
   const SurfaceCompliance<2> surface(s.ring, problem.tread(), zone.n_columns - 1);
-  const ReducedContact<2> contact(surface, problem.tread(), problem.model().grid,
-                                  s.positions.grounds[position], zone, rim);
+  const auto contact =
+      reduced_contact<2>(surface, problem.tread(), problem.model().grid, s.positions.grounds[position], zone,
+                         law_of<2>(problem.model().contact), rim);
   const auto& model = problem.model();
-  const ContactUnknowns<2> start = model.travel
-                                       ? contact.undeformed_start()
-                                       : contact.hertz_start(model.load, model.grid.outer_radius,
-                                                             model.materials.at_tread().contact_modulus());
+  const ContactUnknowns<2> start = model.travel ? undeformed_start(contact)
+                                                : hertz_start(contact, model.load, model.grid.outer_radius,
+                                                              model.materials.at_tread().contact_modulus());
   return solve_contact<2>(contact, std::span(&start, 1));
 }
 

@@ -1,11 +1,11 @@
-#include "wheelwright/geometry/contour.h"
+#include "wheelwright/shape/geometry/contour.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/cell_map.h"
 
 namespace wheelwright {
 namespace {
@@ -97,8 +97,13 @@ TEST(Contour, EveryVertexIsOnTheCircle) {
     const auto holes = of_kind(material_contours(psi, contour_subdivisions(degree)), ContourKind::free);
     const double tolerance = degree == 1 ? 1e-4 : 2e-6;
     for (const Contour& hole : holes) {
-      const BoundingBox box = bounding_box(hole);
-      const Vec<2> centre{0.5 * (box.lower[0] + box.upper[0]), 0.5 * (box.lower[1] + box.upper[1])};
+      Vec<2> lower = hole.points.front(), upper = lower;
+      for (const Vec<2>& p : hole.points)
+        for (int d = 0; d < 2; ++d) {
+          lower[d] = std::min(lower[d], p[d]);
+          upper[d] = std::max(upper[d], p[d]);
+        }
+      const Vec<2> centre = 0.5 * (lower + upper);
       EXPECT_NEAR(std::hypot(centre[0], centre[1]), mid_radius, 2e-4);
       const double turn = std::round(std::atan2(centre[1], centre[0]) / (pi / 8)) * (pi / 8);
       const Vec<2> exact = cartesian<2>({mid_radius, turn});

@@ -1,4 +1,4 @@
-#include "wheelwright/optimize/convergence.h"
+#include "wheelwright/optimization/optimizer/convergence.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wheelwright/cut/critical_points.h"
+#include "wheelwright/shape/cut/critical_points.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "wheelwright/elasticity/sector_stiffness.h"
 #include "wheelwright/linalg/sparse_spd.h"
+#include "wheelwright/mechanics/elasticity/sector_stiffness.h"
 
 extern "C" void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*,
                        const int*, int*);

@@ -9,10 +9,10 @@
 
 #include "tests/random_cells.h"
 #include "tests/support.h"
-#include "wheelwright/cut/cell_quadrature.h"
-#include "wheelwright/cut/cut_domain.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/shape/cut/cell_quadrature.h"
+#include "wheelwright/shape/cut/cut_domain.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

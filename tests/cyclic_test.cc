@@ -8,7 +8,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/linalg/sparse_spd.h"
-#include "wheelwright/ring/nested_dissection.h"
+#include "wheelwright/mechanics/ring/nested_dissection.h"
 
 namespace wheelwright {
 namespace {

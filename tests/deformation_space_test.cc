@@ -1,4 +1,4 @@
-#include "wheelwright/evolution/deformation_space.h"
+#include "wheelwright/shape/evolution/deformation_space.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <numeric>
 #include <random>
 
-#include "wheelwright/cut/cut_domain.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/spline_level_set.h"
-#include "wheelwright/evolution/transport.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/cut/cut_domain.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/spline_level_set.h"
+#include "wheelwright/shape/evolution/transport.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

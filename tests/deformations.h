@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "wheelwright/evolution/boundary_motion.h"
+#include "wheelwright/shape/evolution/boundary_motion.h"
 
 namespace wheelwright::testing {
 

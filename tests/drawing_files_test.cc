@@ -10,17 +10,17 @@
 #include <random>
 
 #include "tests/run_support.h"
+#include "wheelwright/cad/curves/spline.h"
+#include "wheelwright/cad/drawing/chain.h"
+#include "wheelwright/cad/drawing/composed_level_set.h"
+#include "wheelwright/cad/drawing/drawing.h"
+#include "wheelwright/cad/drawing/parts.h"
+#include "wheelwright/cad/drawing/picture_outline.h"
+#include "wheelwright/cad/drawing/svg_path.h"
+#include "wheelwright/cad/drawing/symmetry.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shape_symmetry.h"
-#include "wheelwright/curves/spline.h"
-#include "wheelwright/drawing/chain.h"
-#include "wheelwright/drawing/composed_level_set.h"
-#include "wheelwright/drawing/drawing.h"
-#include "wheelwright/drawing/parts.h"
-#include "wheelwright/drawing/picture_outline.h"
-#include "wheelwright/drawing/svg_path.h"
-#include "wheelwright/drawing/symmetry.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright::testing {
@@ -541,6 +541,13 @@ TEST(Picture, PatternsThatTouchAtCornersStayClosedOutlines) {
 }
 
 // --- Repetitions
+
+std::vector<int> repetitions(const Composition& shape, int most, double tolerance) {
+  std::vector<int> result{1};
+  for (int n = 2; n <= most; ++n)
+    if (repeats(shape, n, tolerance)) result.push_back(n);
+  return result;
+}
 
 TEST(Symmetry, FindsTheNumbersOfEqualSectors) {
   const auto wheel = [](const std::vector<double>& azimuths) {

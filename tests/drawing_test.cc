@@ -5,10 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "wheelwright/drawing/chain.h"
-#include "wheelwright/drawing/composed_level_set.h"
-#include "wheelwright/drawing/parts.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/cad/drawing/chain.h"
+#include "wheelwright/cad/drawing/composed_level_set.h"
+#include "wheelwright/cad/drawing/parts.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 using std::numbers::pi;

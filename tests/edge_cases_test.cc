@@ -7,11 +7,11 @@
 #include <map>
 #include <string>
 
-#include "wheelwright/analysis/deformation_size.h"
-#include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/run/predicted_deformation.h"
 #include "wheelwright/run/study.h"
 

@@ -1,12 +1,12 @@
-#include "wheelwright/evolution/edge_curvature.h"
+#include "wheelwright/shape/evolution/edge_curvature.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

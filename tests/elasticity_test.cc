@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "tests/von_mises.h"
-#include "wheelwright/elasticity/element.h"
+#include "wheelwright/mechanics/elasticity/element.h"
 
 namespace wheelwright {
 namespace {

@@ -3,18 +3,18 @@
 #include <numeric>
 #include <random>
 
-#include "wheelwright/cut/cut_domain.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/closest_point.h"
-#include "wheelwright/evolution/evolver.h"
-#include "wheelwright/evolution/multilinear.h"
-#include "wheelwright/evolution/redistance.h"
-#include "wheelwright/evolution/seeds.h"
-#include "wheelwright/evolution/sub_cell_filter.h"
-#include "wheelwright/evolution/transport.h"
-#include "wheelwright/evolution/volume.h"
-#include "wheelwright/geometry/nearest_point.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/cut/cut_domain.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/closest_point.h"
+#include "wheelwright/shape/evolution/evolver.h"
+#include "wheelwright/shape/evolution/multilinear.h"
+#include "wheelwright/shape/evolution/redistance.h"
+#include "wheelwright/shape/evolution/seeds.h"
+#include "wheelwright/shape/evolution/sub_cell_filter.h"
+#include "wheelwright/shape/evolution/transport.h"
+#include "wheelwright/shape/evolution/volume.h"
+#include "wheelwright/shape/geometry/nearest_point.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

@@ -15,16 +15,16 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/explore/exploration.h"
-#include "wheelwright/explore/pareto.h"
-#include "wheelwright/explore/sweep.h"
-#include "wheelwright/explore/workers.h"
+#include "wheelwright/design/explore/exploration.h"
+#include "wheelwright/design/explore/pareto.h"
+#include "wheelwright/design/explore/sweep.h"
+#include "wheelwright/design/explore/workers.h"
+#include "wheelwright/design/starts/draft.h"
+#include "wheelwright/design/starts/random.h"
+#include "wheelwright/design/starts/start.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/run/folder_lock.h"
 #include "wheelwright/run/study.h"
-#include "wheelwright/starts/draft.h"
-#include "wheelwright/starts/random.h"
-#include "wheelwright/starts/start.h"
 
 // Many designs of one case: how they are drawn, run, and ranked.
 

@@ -3,9 +3,9 @@
 #include <limits>
 
 #include "tests/support.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

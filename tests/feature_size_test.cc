@@ -1,4 +1,4 @@
-#include "wheelwright/evolution/feature_size.h"
+#include "wheelwright/shape/evolution/feature_size.h"
 
 #include <gtest/gtest.h>
 
@@ -7,17 +7,17 @@
 #include <random>
 
 #include "tests/support.h"
-#include "wheelwright/cad/clearance.h"
-#include "wheelwright/cad/fit_outline.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/drawing/chain.h"
-#include "wheelwright/drawing/composed_level_set.h"
-#include "wheelwright/evolution/evolver.h"
-#include "wheelwright/evolution/medial_balls.h"
-#include "wheelwright/evolution/redistance.h"
-#include "wheelwright/geometry/components.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/cad/drawing/chain.h"
+#include "wheelwright/cad/drawing/composed_level_set.h"
+#include "wheelwright/cad/outline/clearance.h"
+#include "wheelwright/cad/outline/fit_outline.h"
+#include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/evolver.h"
+#include "wheelwright/shape/evolution/medial_balls.h"
+#include "wheelwright/shape/evolution/redistance.h"
+#include "wheelwright/shape/geometry/components.h"
+#include "wheelwright/shape/geometry/mirror.h"
 
 namespace wheelwright {
 namespace {

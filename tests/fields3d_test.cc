@@ -6,14 +6,14 @@
 #include <map>
 #include <numbers>
 
-#include "wheelwright/report/lit_wheel.h"
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/report/surface_vtp.h"
-#include "wheelwright/report/tread_contact.h"
-#include "wheelwright/report/vtu.h"
-#include "wheelwright/report/vtu_arrays.h"
+#include "wheelwright/output/report/lit_wheel.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/surface_vtp.h"
+#include "wheelwright/output/report/tread_contact.h"
+#include "wheelwright/output/report/vtu.h"
+#include "wheelwright/output/report/vtu_arrays.h"
 #include "wheelwright/run/study.h"
-#include "wheelwright/surface/check_surface.h"
+#include "wheelwright/shape/surface/check_surface.h"
 
 namespace wheelwright {
 namespace {

@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/report/tread_contact.h"
-#include "wheelwright/rolling/ring_displacement.h"
-#include "wheelwright/rolling/ring_state.h"
+#include "wheelwright/mechanics/rolling/ring_displacement.h"
+#include "wheelwright/mechanics/rolling/ring_state.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/tread_contact.h"
 
 namespace wheelwright {
 namespace {

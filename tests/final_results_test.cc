@@ -4,8 +4,8 @@
 
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/report/comparison_table.h"
-#include "wheelwright/report/gains.h"
+#include "wheelwright/output/report/comparison_table.h"
+#include "wheelwright/output/report/gains.h"
 #include "wheelwright/run/expectations.h"
 #include "wheelwright/run/run_report.h"
 

@@ -6,9 +6,11 @@
 #include <string>
 
 #include "tests/support.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/rolling/adjoint.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/mechanics/contact/contact_adjoint.h"
+#include "wheelwright/mechanics/contact/contact_results.h"
+#include "wheelwright/mechanics/rolling/adjoint.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {
@@ -230,7 +232,7 @@ Matrix loads_under(const RollingProblem<2>& problem, const RollingSolution<2>& s
   for (int q = 0; q < rolled->contact.n_points(); ++q)
     EXPECT_TRUE(contact_status<2>(rolled->state.augmented[q], rolled->contact.friction()) ==
                 contact_status<2>(s.states[position].augmented[q], rolled->contact.friction()));
-  return rolled->contact.contact_loads(rolled->state);
+  return contact_loads(rolled->contact, rolled->state);
 }
 
 double product(const Matrix& a, const Matrix& b) {
@@ -275,7 +277,8 @@ TEST(Friction, TheAdjointIsTheTransposeOfTheTangent) {
           difference.entries()[k] += 0.5 * sign * loads.entries()[k];
       }
       const ContactAdjointLoads<2> loads_of_adjoint{observed};
-      const auto adjoint = contact.adjoints(s->states[position], std::span(&loads_of_adjoint, 1));
+      const auto adjoint =
+          contact_multipliers<2>(contact, s->states[position], std::span(&loads_of_adjoint, 1));
       ASSERT_TRUE(adjoint);
       const double direct = product(observed, difference),
                    transposed = product(adjoint->front().loads, change);

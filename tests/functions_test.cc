@@ -4,14 +4,14 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/functionals/boundary_integral.h"
-#include "wheelwright/functionals/material_density_integral.h"
-#include "wheelwright/functionals/material_volume.h"
-#include "wheelwright/functionals/perimeter.h"
-#include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/geometry/curvature.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/functionals/boundary_integral.h"
+#include "wheelwright/quantities/functionals/material_density_integral.h"
+#include "wheelwright/quantities/functionals/material_volume.h"
+#include "wheelwright/quantities/functionals/perimeter.h"
+#include "wheelwright/quantities/functionals/uniformity_l2.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/curvature.h"
 
 namespace wheelwright {
 namespace {

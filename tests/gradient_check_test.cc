@@ -6,7 +6,7 @@
 #include <string>
 
 #include "wheelwright/case/read.h"
-#include "wheelwright/cut/cut_domain.h"
+#include "wheelwright/shape/cut/cut_domain.h"
 
 namespace wheelwright {
 namespace {

@@ -4,15 +4,15 @@
 
 #include "tests/support.h"
 #include "wheelwright/base/periodic.h"
-#include "wheelwright/functionals/peak_pressure.h"
-#include "wheelwright/functionals/peak_von_mises.h"
-#include "wheelwright/functionals/strain_energy.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/rolling/half_width_solver.h"
+#include "wheelwright/mechanics/rolling/half_width_solver.h"
+#include "wheelwright/quantities/functionals/peak_pressure.h"
+#include "wheelwright/quantities/functionals/peak_von_mises.h"
+#include "wheelwright/quantities/functionals/strain_energy.h"
+#include "wheelwright/quantities/functionals/uniformity_annulus.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/quantities/functionals/uniformity_l2.h"
+#include "wheelwright/shape/geometry/mirror.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {

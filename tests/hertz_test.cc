@@ -3,7 +3,8 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
 
 namespace wheelwright {
 namespace {
@@ -29,9 +30,10 @@ HertzContact squeeze_disc(double load, const Material& material, int radial_cell
       sector_stiffness<2>(full, table, radial_cells - refinement.rows),
       [&](int harmonic) { return tread->outer_stiffness(half_turn, harmonic); }, half_turn);
   EXPECT_TRUE(ring);
-  const ReducedContact<2> contact({*ring, *tread, 3}, *tread, grid, {0}, {-2, 4},
-                                  {{}, {{{.towards_ground = 1}, load}}});
-  const ContactUnknowns<2> guess = contact.hertz_start(load, 0.34, material.contact_modulus());
+  const auto contact =
+      reduced_contact<2>({*ring, *tread, 3}, *tread, grid, {0}, {-2, 4}, std::make_shared<CoulombLaw<2>>(0),
+                         {{}, {{{.towards_ground = 1}, load}}});
+  const ContactUnknowns<2> guess = hertz_start(contact, load, 0.34, material.contact_modulus());
   const auto state = solve_contact<2>(contact, std::span(&guess, 1));
   EXPECT_TRUE(state);
 

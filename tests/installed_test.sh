@@ -5,7 +5,8 @@
 # - all: that the headers include no others than those of the standard library and compile together; that a program
 #   outside of the project, examples/optimize_a_wheel, builds by CMake package and by pkg-config, improves a wheel at
 #   constant volume and finds what the installed program finds; that a material law of its own, examples/own_material,
-#   gives what the built-in law gives; that the library shows no names but its own.
+#   gives what the built-in law gives; that an own command and an own observer, examples/own_command, take part in a run;
+#   that the library shows no names but its own.
 # usage: installed_test.sh all|each-header BUILD_FOLDER COMPILER [FLAG...]
 set -euo pipefail
 subject=$1 build=$2 compiler=$3 flags=("${@:4}")
@@ -113,12 +114,48 @@ check_materials() {
 }
 check_materials "$folder/materials" || fail "an own material law gives something else: $(cat "$folder/materials")"
 
+build_example own_command
+# steer RUN LOG: runs or resumes it with the commands of a log; prints shapes and commands.
+steer() {
+  "$folder/own_command/build/own_command" "$folder/case.toml" "$folder/$1" "$2"
+}
+# logged TRIALS COMMAND: a line of a command log.
+logged() {
+  printf '{"trials":%s,"waits":0,"command":%s}\n' "$1" "$2"
+}
+logged 2 '{"do":"scale_load","factor":-1}' >"$folder/log_to_steer"
+logged 2 '{"do":"scale_load","factor":1.25}' >>"$folder/log_to_steer"
+steer steered "$folder/log_to_steer" >"$folder/steered.txt"
+grep -q '^refused scale_load: .' "$folder/steered.txt" || fail "an own command was not refused: $(cat "$folder/steered.txt")"
+grep -q '^executed scale_load' "$folder/steered.txt" || fail "an own command was not executed: $(cat "$folder/steered.txt")"
+[[ $(grep -o '"factor":[^}]*' "$folder/steered/commands.jsonl") == '"factor":1.25' ]] ||
+  fail "the log of an own command: $(cat "$folder/steered/commands.jsonl")"
+
+steer replayed "$folder/steered/commands.jsonl" >"$folder/replayed.txt"
+cmp <(grep ^shape "$folder/steered.txt") <(grep ^shape "$folder/replayed.txt") || fail "a replay of an own command differs"
+
+{ cat "$folder/steered/commands.jsonl" && logged 5 '{"do":"stop"}'; } >"$folder/log_to_stop"
+steer stopped "$folder/log_to_stop" >"$folder/stopped.txt"
+steer stopped /dev/null >>"$folder/stopped.txt"
+cmp <(grep ^shape "$folder/steered.txt") <(grep ^shape "$folder/stopped.txt") ||
+  fail "a run with an own command is resumed with other shapes: $(cat "$folder/stopped.txt")"
+
 build_example optimize_a_wheel
 loaded=$(LD_TRACE_LOADED_OBJECTS=1 "$folder/optimize_a_wheel/build/optimize_a_wheel")
 [[ $loaded == *"$prefix"*libwheelwright* ]] || fail "another library is loaded: $loaded"
 "$folder/optimize_a_wheel/build/optimize_a_wheel" "$folder/case.toml" >"$folder/shapes_of_example"
 check_improvement "$folder/shapes_of_example" || fail "not improved: $(cat "$folder/shapes_of_example")"
 check_agreement "$folder/shapes_of_example" "$folder/shapes" || fail "not what the installed program finds"
+
+# A program that adds a quantity of its own, in the objective and in a bound of the case.
+printf '\n[[objective.term]]\nquantity = "bulk_energy"\n[[constraint]]\nquantity = "bulk_energy"\nat_most = 1e3\n' |
+  cat "$folder/case.toml" - >"$folder/own.toml"
+build_example own_quantity
+"$folder/own_quantity/build/own_quantity" "$folder/own.toml" "$folder/own_run"
+for file in history.csv report.html; do
+  grep -q '\<bulk_energy \[J/m\].*bounded bulk_energy \[J/m\]' "$folder/own_run/$file" ||
+    fail "no columns of the own quantity in $file"
+done
 
 export PKG_CONFIG_PATH=${library%/*}/pkgconfig
 read -ra package < <(pkg-config --cflags --libs wheelwright)

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/evolver.h"
-#include "wheelwright/geometry/shapes.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/evolver.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

@@ -2,8 +2,8 @@
 
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/explore/report_designs.h"
-#include "wheelwright/report/comparison_table.h"
+#include "wheelwright/design/explore/report_designs.h"
+#include "wheelwright/output/report/comparison_table.h"
 #include "wheelwright/run/run.h"
 
 namespace wheelwright::testing {

@@ -6,12 +6,12 @@
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/functionals/peak_von_mises.h"
-#include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/functionals/peak_von_mises.h"
+#include "wheelwright/quantities/functionals/uniformity_l2.h"
 #include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/study.h"
-#include "wheelwright/sensitivity/taylor_test.h"
 
 namespace wheelwright {
 namespace {

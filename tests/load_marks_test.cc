@@ -1,4 +1,4 @@
-#include "wheelwright/report/load_marks.h"
+#include "wheelwright/output/report/load_marks.h"
 
 #include <gtest/gtest.h>
 

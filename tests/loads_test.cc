@@ -5,11 +5,11 @@
 #include <random>
 
 #include "tests/support.h"
-#include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/analysis/shape_summary.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/functionals/quantities.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/analysis/rolling_analysis.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
+#include "wheelwright/quantities/functionals/quantities.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "examples/own_material/warm_polymer.h"
 #include "tests/support.h"
-#include "wheelwright/functionals/peak_von_mises.h"
+#include "wheelwright/quantities/functionals/peak_von_mises.h"
 
 namespace wheelwright {
 namespace {

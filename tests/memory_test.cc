@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "wheelwright/case/derived.h"
+#include "wheelwright/run/problem_size.h"
 
 namespace wheelwright {
 namespace {
@@ -101,7 +101,7 @@ TEST(Memory, AnUnevenTaperedHoleTakesThatOfTheWholeWidth) {
   c.grid.axial_cells = 4;
   const auto with_profile = [&](const std::vector<std::array<double, 2>>& profile) {
     c.holes.tapered = {{.count = 16, .center_radius = 0.27, .profile = profile, .phase = {}}};
-    return estimated_memory(c);
+    return estimated_memory(problem_size(c));
   };
   const double even = with_profile({{-0.06, 0.02}, {-0.01, 0.03}, {0.01, 0.03}, {0.06, 0.02}}),
                shifted = with_profile({{-0.06, 0.02}, {-0.01, 0.03}, {0.02, 0.03}, {0.06, 0.02}}),
@@ -113,7 +113,7 @@ TEST(Memory, AnUnevenTaperedHoleTakesThatOfTheWholeWidth) {
 TEST(Memory, EachThreadTakesAddressSpace) {
   const Case c;
   EXPECT_FALSE(lack_of_address_space(c, 64, {}));
-  const double left = estimated_memory(c) + 500e6;
+  const double left = estimated_memory(problem_size(c)) + 500e6;
   EXPECT_FALSE(lack_of_address_space(c, 1, left));
   EXPECT_TRUE(lack_of_address_space(c, 64, left));
 }
@@ -123,8 +123,8 @@ TEST(Memory, SomeIsAvailableHere) { EXPECT_GT(available_memory().value_or(0), 0)
 TEST(Memory, ACaseLacksMemoryFromItsEstimateOn) {
   const Case c;
   EXPECT_FALSE(lack_of_memory(c, {}));
-  EXPECT_FALSE(lack_of_memory(c, estimated_memory(c)));
-  EXPECT_TRUE(lack_of_memory(c, estimated_memory(c) - 1));
+  EXPECT_FALSE(lack_of_memory(c, estimated_memory(problem_size(c))));
+  EXPECT_TRUE(lack_of_memory(c, estimated_memory(problem_size(c)) - 1));
 }
 
 }  // namespace

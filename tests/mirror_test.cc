@@ -1,16 +1,16 @@
-#include "wheelwright/geometry/mirror.h"
+#include "wheelwright/shape/geometry/mirror.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
 #include "tests/support.h"
-#include "wheelwright/evolution/evolver.h"
-#include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/quantities/functionals/mean_contact_stress.h"
+#include "wheelwright/quantities/functionals/uniformity_annulus.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/quantities/functionals/uniformity_l2.h"
+#include "wheelwright/shape/evolution/evolver.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "tests/support.h"
-#include "wheelwright/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
 
 namespace wheelwright {
 namespace {

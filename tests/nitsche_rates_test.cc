@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support.h"
-#include "wheelwright/rolling/ring_displacement.h"
+#include "wheelwright/mechanics/rolling/ring_displacement.h"
 
 namespace wheelwright {
 namespace {

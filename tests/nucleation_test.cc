@@ -1,4 +1,4 @@
-#include "wheelwright/nucleation/nucleation.h"
+#include "wheelwright/optimization/nucleation/nucleation.h"
 
 #include <algorithm>
 #include <numbers>
@@ -7,7 +7,7 @@
 #include "tests/support.h"
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/run.h"
 
 namespace wheelwright::testing {

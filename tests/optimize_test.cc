@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "tests/support.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/volume.h"
-#include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/optimize/constraints.h"
-#include "wheelwright/optimize/optimizer.h"
-#include "wheelwright/optimize/sequential_quadratic.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
+#include "wheelwright/optimization/optimizer/sequential_quadratic.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/volume.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

@@ -5,14 +5,14 @@
 #include <random>
 
 #include "tests/support.h"
-#include "wheelwright/cad/check_outline.h"
-#include "wheelwright/cad/clearance.h"
-#include "wheelwright/cad/fit_outline.h"
-#include "wheelwright/cad/spline_fit.h"
-#include "wheelwright/cad/triangulation.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/zero_contour.h"
+#include "wheelwright/cad/outline/check_outline.h"
+#include "wheelwright/cad/outline/clearance.h"
+#include "wheelwright/cad/outline/fit_outline.h"
+#include "wheelwright/cad/outline/spline_fit.h"
+#include "wheelwright/cad/outline/triangulation.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/zero_contour.h"
 
 namespace wheelwright {
 using namespace cad;

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support.h"
-#include "wheelwright/functionals/over_positions.h"
-#include "wheelwright/functionals/rim_quantities.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/rolling/half_width_solver.h"
+#include "wheelwright/mechanics/rolling/half_width_solver.h"
+#include "wheelwright/quantities/functionals/over_positions.h"
+#include "wheelwright/quantities/functionals/rim_quantities.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {

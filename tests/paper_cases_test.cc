@@ -6,7 +6,7 @@
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shorten.h"
-#include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/mechanics/rolling/rolling_problem.h"
 #include "wheelwright/run/expectations.h"
 
 namespace wheelwright {

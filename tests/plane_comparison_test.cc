@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "wheelwright/analysis/rolling_measures.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/quantities/analysis/rolling_measures.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

@@ -5,9 +5,9 @@
 #include "tests/support.h"
 #include "tests/von_mises.h"
 #include "wheelwright/case/case.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/functionals/uniformity_l2.h"
+#include "wheelwright/quantities/functionals/uniformity_annulus.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/quantities/functionals/uniformity_l2.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

@@ -6,8 +6,8 @@
 #include <random>
 #include <regex>
 
-#include "wheelwright/report/plot_svg.h"
-#include "wheelwright/report/pressure_plot.h"
+#include "wheelwright/output/report/plot_svg.h"
+#include "wheelwright/output/report/pressure_plot.h"
 
 namespace wheelwright {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "tests/support.h"
-#include "wheelwright/analysis/rolling_measures.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/quantities/analysis/rolling_measures.h"
 #include "wheelwright/run/study.h"
 
 using namespace wheelwright;

@@ -9,8 +9,8 @@
 #include "wheelwright/base/periodic.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/geometry/gauss.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/geometry/gauss.h"
 
 namespace wheelwright {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "tests/support.h"
-#include "wheelwright/analysis/rolling_measures.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/quantities/analysis/rolling_measures.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 // A wheel whose shape does not change along the axle, in 3D, against the same wheel in 2D.
 

@@ -1,4 +1,4 @@
-#include "wheelwright/optimize/quadratic_step.h"
+#include "wheelwright/optimization/optimizer/quadratic_step.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "wheelwright/linalg/box_program.h"
-#include "wheelwright/optimize/curvature_memory.h"
+#include "wheelwright/optimization/optimizer/curvature_memory.h"
 
 using namespace wheelwright;
 

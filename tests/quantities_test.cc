@@ -1,4 +1,4 @@
-#include "wheelwright/functionals/quantities.h"
+#include "wheelwright/quantities/functionals/quantities.h"
 
 #include <gtest/gtest.h>
 
@@ -8,18 +8,18 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/analysis/shape_summary.h"
-#include "wheelwright/elasticity/von_mises.h"
-#include "wheelwright/functionals/mass.h"
-#include "wheelwright/functionals/over_positions.h"
-#include "wheelwright/functionals/peak_pressure.h"
-#include "wheelwright/functionals/peak_von_mises.h"
-#include "wheelwright/functionals/quotient.h"
-#include "wheelwright/functionals/rim_quantities.h"
-#include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/sensitivity/taylor_test.h"
-#include "wheelwright/state/material_integral.h"
+#include "wheelwright/mechanics/elasticity/von_mises.h"
+#include "wheelwright/mechanics/state/material_integral.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/analysis/rolling_analysis.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
+#include "wheelwright/quantities/functionals/mass.h"
+#include "wheelwright/quantities/functionals/over_positions.h"
+#include "wheelwright/quantities/functionals/peak_pressure.h"
+#include "wheelwright/quantities/functionals/peak_von_mises.h"
+#include "wheelwright/quantities/functionals/quotient.h"
+#include "wheelwright/quantities/functionals/rim_quantities.h"
+#include "wheelwright/quantities/functionals/uniformity_l2.h"
 
 namespace wheelwright {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "wheelwright/geometry/lagrange.h"
+#include "wheelwright/shape/geometry/lagrange.h"
 
 namespace wheelwright::testing {
 

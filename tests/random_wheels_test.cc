@@ -8,13 +8,13 @@
 #include <map>
 #include <regex>
 
-#include "wheelwright/analysis/deformation_size.h"
-#include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/quantities/analysis/rolling_analysis.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/predicted_deformation.h"
 #include "wheelwright/run/study.h"
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/report/tread_contact.h"
-#include "wheelwright/state/strain_peaks.h"
+#include "wheelwright/mechanics/state/strain_peaks.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/tread_contact.h"
+#include "wheelwright/shape/geometry/mirror.h"
 
 namespace wheelwright {
 namespace {
@@ -34,6 +34,13 @@ void expect_equal(const RingField& a, const RingField& b, double tolerance) {
     if (!std::isnan(b.values[i])) worst = std::max(worst, std::abs(a.values[i] - b.values[i]));
   }
   EXPECT_LT(worst, tolerance * scale);
+}
+
+std::vector<PositionFields<2>> all_position_fields(const StateSolver<2>& solver, const State<2>& state) {
+  std::vector<PositionFields<2>> all;
+  for_each_position<2>(solver, state,
+                       [&](int, PositionFields<2> fields) { all.push_back(std::move(fields)); });
+  return all;
 }
 
 /// Points in contact, which both zones hold; beyond them zones may end one column apart.

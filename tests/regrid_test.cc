@@ -1,4 +1,4 @@
-#include "wheelwright/evolution/regrid.h"
+#include "wheelwright/shape/evolution/regrid.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/geometry/values_on.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/mirror.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 // A shape on another grid of the same ring.
 

@@ -327,7 +327,7 @@ class Page(Browser, unittest.TestCase):
         self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def test_curves_stand_out(self):
-        colours = re.search(r"curveColours = \[(.*?)\]", Path("src/wheelwright/page/assets/colours.js").read_text())[1]
+        colours = re.search(r"curveColours = \[(.*?)\]", Path("src/wheelwright/output/page/assets/colours.js").read_text())[1]
         for colour in re.findall(r"#[0-9a-f]{6}", colours):
             for panel in ("#f6f8fa", "#161b22"):
                 self.assertGreaterEqual(contrast(colour, panel), 3, colour)
@@ -427,7 +427,7 @@ class Page(Browser, unittest.TestCase):
             self.assertTrue(control.accessible_name, control.get_attribute("outerHTML"))
 
     def test_texts_stand_out_in_light_and_dark(self):
-        style = Path("src/wheelwright/page/assets/report.css").read_text()
+        style = Path("src/wheelwright/output/page/assets/report.css").read_text()
         light, dark = (dict(re.findall(r"--(\w+): (#[0-9a-f]{6})", block)) for block in
                        re.findall(r":root \{(.*?)\}", style, re.DOTALL))
         for theme in (light, dark):

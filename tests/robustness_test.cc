@@ -6,8 +6,8 @@
 #include <string>
 
 #include "tests/support.h"
-#include "wheelwright/cut/cell_quadrature.h"
-#include "wheelwright/rolling/ring_state.h"
+#include "wheelwright/mechanics/rolling/ring_state.h"
+#include "wheelwright/shape/cut/cell_quadrature.h"
 
 namespace wheelwright {
 namespace {

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "tests/support.h"
-#include "wheelwright/contact/contact_solver.h"
-#include "wheelwright/functionals/strain_energy.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/sensitivity/evaluate.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
+#include "wheelwright/optimization/sensitivity/evaluate.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/functionals/strain_energy.h"
+#include "wheelwright/quantities/functionals/uniformity_annulus.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {
@@ -194,7 +195,7 @@ TEST(Rolling3D, TheContactIsSolvedToRoundingFromEveryStart) {
     const double disc = model.materials.at_tread().contact_modulus();
     for (const double factor : {0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
       const auto start =
-          contact.hertz_start(factor * model.load / model.grid.width, model.grid.outer_radius, disc);
+          hertz_start(contact, factor * model.load / model.grid.width, model.grid.outer_radius, disc);
       const auto state = solve_contact<3>(contact, std::span(&start, 1));
       ASSERT_TRUE(state) << state.failure().detail;
       double difference = 0, peak = 0;

@@ -5,8 +5,8 @@
 
 #include "tests/support.h"
 #include "wheelwright/base/parallel.h"
-#include "wheelwright/rolling/position_tree.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/mechanics/rolling/position_tree.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
 
 namespace wheelwright {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheelwright/cad/roughness.h"
+#include "wheelwright/cad/outline/roughness.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <functional>
 #include <numbers>
 
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline/outline.h"
 #include "wheelwright/case/case.h"
-#include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/run/roughness_warning.h"
+#include "wheelwright/shape/geometry/cell_map.h"
 
 namespace wheelwright::cad {
 namespace {

@@ -7,9 +7,9 @@
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/run/run.h"
+#include "wheelwright/shape/cut/measure.h"
 
 // Runs that begin with the shape of an earlier run, and runs that begin on coarser grids.
 

@@ -5,8 +5,8 @@
 #include <regex>
 
 #include "tests/support.h"
-#include "wheelwright/report/colour_map.h"
-#include "wheelwright/report/sector_svg.h"
+#include "wheelwright/output/report/colour_map.h"
+#include "wheelwright/output/report/sector_svg.h"
 
 namespace wheelwright {
 namespace {

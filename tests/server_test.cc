@@ -14,10 +14,10 @@
 #include <thread>
 #include <vector>
 
-#include "wheelwright/server/local_server.h"
-#include "wheelwright/server/peer.h"
-#include "wheelwright/server/request_rules.h"
-#include "wheelwright/server/token.h"
+#include "wheelwright/web/server/local_server.h"
+#include "wheelwright/web/server/peer.h"
+#include "wheelwright/web/server/request_rules.h"
+#include "wheelwright/web/server/token.h"
 
 // A server for the pages of this user alone, tried by plain sockets: what a browser would never send, and
 // what other pages, other users and broken clients would.

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/report/svg.h"
+#include "wheelwright/output/report/svg.h"
 
 namespace wheelwright {
 namespace {

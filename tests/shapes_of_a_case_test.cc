@@ -5,14 +5,14 @@
 #include <cstring>
 #include <numbers>
 
+#include "wheelwright/cad/drawing/parts.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/drawing/parts.h"
 #include "wheelwright/run/loose_material.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/cut/measure.h"
 
 using namespace wheelwright;
 using std::numbers::pi;

@@ -1,4 +1,4 @@
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 #include <gtest/gtest.h>
 

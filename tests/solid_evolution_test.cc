@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/evolver.h"
-#include "wheelwright/evolution/regrid.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/evolver.h"
+#include "wheelwright/shape/evolution/regrid.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 // How shapes that change along the axle evolve: holes that open and close at the side faces, merge and
 // vanish, islands.

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "wheelwright/case/read.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/geometry/mirror.h"
 
 // The loop of shapes in three dimensions.
 

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/elasticity/sector_stiffness.h"
-#include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/geometry/section.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/mechanics/elasticity/sector_stiffness.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/mirror.h"
+#include "wheelwright/shape/geometry/section.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 // Holes that change along the axle.
 

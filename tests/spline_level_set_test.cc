@@ -1,13 +1,12 @@
-#include "wheelwright/evolution/spline_level_set.h"
+#include "wheelwright/shape/evolution/spline_level_set.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/redistance.h"
-#include "wheelwright/evolution/spline_redistance.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/redistance.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

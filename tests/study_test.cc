@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "wheelwright/case/read.h"
-#include "wheelwright/evolution/volume.h"
-#include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/quantities/functionals/strain_energy.h"
+#include "wheelwright/shape/evolution/volume.h"
 
 namespace wheelwright {
 namespace {

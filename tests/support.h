@@ -4,11 +4,11 @@
 #include <numeric>
 #include <vector>
 
-#include "wheelwright/functionals/strain_energy.h"
-#include "wheelwright/optimize/optimizer.h"
-#include "wheelwright/rolling/rolling_problem.h"
-#include "wheelwright/sensitivity/evaluate.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/mechanics/rolling/rolling_problem.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
+#include "wheelwright/optimization/sensitivity/evaluate.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/functionals/strain_energy.h"
 
 /// Shapes and models that the tests share.
 namespace wheelwright::testing {

@@ -1,4 +1,4 @@
-#include "wheelwright/ring/surface_compliance.h"
+#include "wheelwright/mechanics/ring/surface_compliance.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/base/periodic.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {

@@ -4,13 +4,13 @@
 #include <numbers>
 #include <random>
 
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/surface/check_surface.h"
-#include "wheelwright/surface/deviation.h"
-#include "wheelwright/surface/material_cells.h"
-#include "wheelwright/surface/surface_mesh.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/shapes.h"
+#include "wheelwright/shape/surface/check_surface.h"
+#include "wheelwright/shape/surface/deviation.h"
+#include "wheelwright/shape/surface/material_cells.h"
+#include "wheelwright/shape/surface/surface_mesh.h"
 
 namespace wheelwright {
 namespace {

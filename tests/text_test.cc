@@ -4,10 +4,15 @@
 
 #include <string>
 
-#include "wheelwright/report/svg.h"
+#include "wheelwright/output/report/svg.h"
 
 namespace wheelwright {
 namespace {
+
+bool is_utf8(std::string_view text) {
+  while (const std::size_t length = utf8_length(text)) text.remove_prefix(length);
+  return text.empty();
+}
 
 /// The bit pattern of UTF-8 for a number, well-formed or not, in a given number of bytes.
 std::string encoded(unsigned code, int bytes) {

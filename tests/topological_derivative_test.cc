@@ -4,13 +4,13 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/elasticity/small_hole.h"
-#include "wheelwright/functionals/mass.h"
-#include "wheelwright/functionals/material_volume.h"
-#include "wheelwright/functionals/peak_von_mises.h"
-#include "wheelwright/functionals/perimeter.h"
-#include "wheelwright/functionals/uniformity_dual.h"
+#include "wheelwright/mechanics/elasticity/small_hole.h"
+#include "wheelwright/quantities/functionals/mass.h"
+#include "wheelwright/quantities/functionals/material_volume.h"
+#include "wheelwright/quantities/functionals/peak_von_mises.h"
+#include "wheelwright/quantities/functionals/perimeter.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

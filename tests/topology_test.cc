@@ -1,4 +1,4 @@
-#include "wheelwright/geometry/topology.h"
+#include "wheelwright/shape/geometry/topology.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "tests/support.h"
-#include "wheelwright/geometry/contour.h"
+#include "wheelwright/shape/geometry/contour.h"
 
 namespace wheelwright {
 namespace {

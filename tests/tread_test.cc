@@ -4,7 +4,7 @@
 #include <random>
 
 #include "tests/support.h"
-#include "wheelwright/ring/tread_ring.h"
+#include "wheelwright/mechanics/ring/tread_ring.h"
 
 namespace wheelwright {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheelwright/rolling/turned_state.h"
+#include "wheelwright/mechanics/rolling/turned_state.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 
 #include "tests/support.h"
 #include "wheelwright/base/periodic.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/rolling/ring_state.h"
-#include "wheelwright/rolling/width_halves.h"
+#include "wheelwright/mechanics/rolling/ring_state.h"
+#include "wheelwright/mechanics/rolling/width_halves.h"
+#include "wheelwright/shape/geometry/mirror.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {

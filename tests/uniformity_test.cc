@@ -4,13 +4,13 @@
 #include <numeric>
 
 #include "tests/support.h"
-#include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/functionals/strain_energy.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/rolling/neumann_to_dirichlet.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/mechanics/rolling/neumann_to_dirichlet.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/functionals/mean_contact_stress.h"
+#include "wheelwright/quantities/functionals/strain_energy.h"
+#include "wheelwright/quantities/functionals/uniformity_annulus.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/quantities/functionals/uniformity_l2.h"
 
 namespace wheelwright {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "wheelwright/elasticity/isotropic_law.h"
+#include "wheelwright/mechanics/elasticity/isotropic_law.h"
 
 namespace wheelwright::testing {
 

@@ -1,4 +1,4 @@
-#include "wheelwright/elasticity/von_mises.h"
+#include "wheelwright/mechanics/elasticity/von_mises.h"
 
 #include <gtest/gtest.h>
 

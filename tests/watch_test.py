@@ -265,6 +265,7 @@ class Page(PageTest):
         self.until(lambda: "refused" in self.element("message").get_attribute("class"))
         self.assertIn("force", self.text("message"))
         self.assertEqual(self.watched.frame()["settings"]["load"]["force_N"], 6000)
+        self.until(lambda: float(self.element("force-number").get_attribute("value")) == 6000)
 
     def test_volume_and_weights_follow_their_sliders(self):
         self.settled()
@@ -631,6 +632,19 @@ class OneScreen(PageTest):
                   .filter((e) => e.id !== "message" && (e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1))
                   .map((e) => e.outerHTML.slice(0, 80));""")
             self.assertEqual(hidden, [], (width, height))
+
+    def test_the_buttons_below_the_wheel_fit_on_narrow_screens(self):
+        self.settled()
+        for width, height in [(1150, 700), (1000, 600)]:
+            self.resize(width, height)
+            time.sleep(0.5)
+            bar = self.browser.find_element(By.CLASS_NAME, "view").rect
+            for name in ("load", "roll", "ghost", "position", "position-text", "zoom-out", "zoom-text", "zoom-in", "fit"):
+                box = self.element(name).rect
+                self.assertGreaterEqual(box["x"], bar["x"], (name, width))
+                self.assertLessEqual(box["x"] + box["width"], bar["x"] + bar["width"], (name, width))
+                self.assertLessEqual(box["y"] + box["height"], height, (name, width))
+        self.resize(*SIZES[0])
 
     def test_the_wheel_stands_on_its_ground(self):
         self.settled()

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "wheelwright/case/read.h"
-#include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/mechanics/rolling/rolling_problem.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

@@ -1,16 +1,16 @@
-#include "wheelwright/evolution/widths.h"
+#include "wheelwright/shape/evolution/widths.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
 #include "tests/deformations.h"
-#include "wheelwright/evolution/deformation_space.h"
-#include "wheelwright/evolution/spline_level_set.h"
-#include "wheelwright/evolution/transport.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/geometry/shapes.h"
 #include "wheelwright/linalg/dense.h"
+#include "wheelwright/shape/evolution/deformation_space.h"
+#include "wheelwright/shape/evolution/spline_level_set.h"
+#include "wheelwright/shape/evolution/transport.h"
+#include "wheelwright/shape/geometry/mirror.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 using namespace wheelwright;
 

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/export/formats.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/output/export/formats.h"
 
 namespace wheelwright {
 using namespace cad;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <wheelwright/elasticity/material_law.h>
+#include <wheelwright/mechanics/elasticity/material_law.h>
 
 #include <cmath>
 

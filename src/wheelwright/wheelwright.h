@@ -12,14 +12,14 @@
 /// What can happen to a correct program is a value, Expected<T>. Nothing here prints, ends the program or
 /// handles signals.
 
-#include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/process_settings.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/version.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/geometry/contour.h"
-#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
+#include "wheelwright/optimization/sensitivity/evaluate.h"
+#include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/run/run.h"
 #include "wheelwright/run/study.h"
-#include "wheelwright/sensitivity/evaluate.h"
+#include "wheelwright/shape/geometry/contour.h"

@@ -9,6 +9,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/run/case_report.h"
+#include "wheelwright/run/problem_size.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;
@@ -30,7 +31,8 @@ void check_problems(const CaseResult& result, std::string_view text) {
 void check_case(const Case& c) {
   const CaseResult again = parse_case(to_toml(c), "again.toml");
   require(again.value == c, "a resolved case reads back equal");
-  require(std::isfinite(estimated_memory(c)) && estimated_memory(c) > 0, "memory is a number");
+  require(std::isfinite(estimated_memory(problem_size(c))) && estimated_memory(problem_size(c)) > 0,
+          "memory is a number");
   require(derived_report(c).find("nan") == std::string::npos, "derived numbers are numbers");
   warnings(c);
   Composition(figures(c));

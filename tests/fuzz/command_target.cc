@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "tests/fuzz/target.h"
-#include "wheelwright/drawing/parts.h"
+#include "wheelwright/cad/drawing/parts.h"
 #include "wheelwright/run/command_json.h"
 #include "wheelwright/run/command_log.h"
 
@@ -59,7 +59,7 @@ void try_edit(std::string_view text) {
   const auto command = parse_command(text);
   if (!command) return;
   ShapeOnly run;
-  const auto executed = std::visit([&](const auto& c) { return c.execute(run); }, *command);
+  const auto executed = command->execute(run);
   require(executed || !executed.failure().reason.empty(), "a refusal has a reason");
 }
 
@@ -75,28 +75,45 @@ void try_log(std::string_view text) {
 
 }  // namespace
 
+namespace {
+
+/// Sets every field, also optional ones.
+struct FillIn {
+  void operator()(double* place) const { *place = 0.26; }
+  void operator()(int* place) const { *place = 1; }
+  void operator()(std::string* place) const { *place = "kerb"; }
+  void operator()(Fill* place) const { *place = Fill::material; }
+  void operator()(std::array<double, 2>* place) const { *place = {0.26, 0}; }
+  void operator()(std::vector<std::array<double, 2>>* place) const { *place = {{0.26, 0}, {0.27, 0.01}}; }
+  template <class T>
+  void operator()(std::optional<T>* place) const {
+    (*this)(&place->emplace());
+  }
+};
+
+/// Every kind of command, with its default values and with all of its fields.
+std::vector<Command> commands_of_every_kind() {
+  std::vector<Command> commands;
+  for (const CommandKind& kind : commands_of_every_run()) {
+    commands.push_back(kind.make([](const CommandFields&) {}));
+    commands.push_back(kind.make([](const CommandFields& fields) {
+      for (const CommandField& field : fields) std::visit(FillIn(), field.place);
+    }));
+  }
+  return commands;
+}
+
+}  // namespace
+
 std::vector<std::string> wheelwright::testing::seeds() {
-  const std::vector<Command> commands = {Save{},
-                                         Stop{},
-                                         Pause{},
-                                         Continue{},
-                                         Step{},
-                                         NewWeights{.strain_energy = 1, .uniformity_dual = 1e4},
-                                         NewLoad{},
-                                         NewVolume{0.5},
-                                         NewWidths{.minimum_wall = 0.005},
-                                         NewBound{.constraint = 1, .at_most = 2e6},
-                                         Paint{.path = {{0.26, 0}, {0.27, 0.01}}, .radius = 0.01},
-                                         MoveHole{.at = {0.26, 0}, .by = {0, 0.01}, .scale = 1.1},
-                                         FillHole{.at = {0.26, 0}},
-                                         Paint{.path = {{0.26, 0}, {1e5, 0}}, .radius = 0.01},
-                                         Paint{.path = {{0.26, 0}}, .radius = 1e5},
-                                         Paint{.path = {{0.3, 0.3}, {-0.3, -0.3}}, .radius = 1e-9},
-                                         MoveHole{.at = {0.265, 0}, .by = {1e5, 0}, .scale = 1.1},
-                                         MoveHole{.at = {0.265, 0}, .by = {0.01, 0}, .scale = 1e-2},
-                                         TakeShape{"designs/003/shape.levelset"},
-                                         Reset{},
-                                         Undo{}};
+  std::vector<Command> commands = commands_of_every_kind();
+  const std::vector<Command> edges = {Paint{.path = {{0.26, 0}, {1e5, 0}}, .radius = 0.01},
+                                      Paint{.path = {{0.26, 0}}, .radius = 1e5},
+                                      Paint{.path = {{0.3, 0.3}, {-0.3, -0.3}}, .radius = 1e-9},
+                                      MoveHole{.at = {0.26, 0}, .by = {0, 0.01}, .scale = 1.1},
+                                      MoveHole{.at = {0.265, 0}, .by = {1e5, 0}, .scale = 1.1},
+                                      MoveHole{.at = {0.265, 0}, .by = {0.01, 0}, .scale = 1e-2}};
+  commands.insert(commands.end(), edges.begin(), edges.end());
   std::vector<std::string> seeds;
   std::string log;
   for (const Command& command : commands) {

@@ -1,8 +1,8 @@
 #include "tests/fuzz/target.h"
 #include "wheelwright/base/text.h"
-#include "wheelwright/drawing/composition.h"
-#include "wheelwright/drawing/drawing.h"
-#include "wheelwright/drawing/picture_outline.h"
+#include "wheelwright/cad/drawing/composition.h"
+#include "wheelwright/cad/drawing/drawing.h"
+#include "wheelwright/cad/drawing/picture_outline.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;

@@ -6,6 +6,7 @@ const { formats, reportTexts } = require("./scripts.js").load("formats", "report
 const units = [{ key: "mass_kg", label: "mass", unit: "kg", factor: 1 }, { key: "mean_travel_m", label: "travel", unit: "mm", factor: 1e3 },
   { key: "nobody_has_it", label: "", unit: "", factor: 1 }];
 const group = (name, ...wheels) => ({ name, units, wheels: wheels.map((numbers, k) => ({ name: `wheel ${k}`, numbers })) });
+const number = (text) => Number(text.replace("\u2212", "-"));
 const numbersIn = (text) => (text.replaceAll("\u2212", "-").match(/-?\d+(\.\d+)?/g) ?? []).map(Number);
 
 test("a comparison has a value for every wheel and a change for every wheel but the first", () => {
@@ -56,9 +57,9 @@ const boundOf = (...of) => columns(reportTexts.boundRow(boundRun(...of), 0));
 
 test("the margin is positive where the bound is kept, on either side", () => {
   const below = boundOf("<", 0.003, 0.005), above = boundOf(">", 0.006, 0.005), equal = boundOf("=", 0.006, 0.005);
-  assert.deepEqual([below, above, equal].map((row) => Number(row.margin)), [2, 1, -1]);
-  assert.deepEqual([below, above, equal].map((row) => Number(row["margin [%]"])), [40, 20, -20]);
-  assert.ok(Number(boundOf("<", 0.006, 0.005).margin) < 0 && Number(boundOf(">", 0.004, 0.005).margin) < 0);
+  assert.deepEqual([below, above, equal].map((row) => number(row.margin)), [2, 1, -1]);
+  assert.deepEqual([below, above, equal].map((row) => number(row["margin [%]"])), [40, 20, -20]);
+  assert.ok(number(boundOf("<", 0.006, 0.005).margin) < 0 && number(boundOf(">", 0.004, 0.005).margin) < 0);
 });
 
 test("before is the first value that the history knows, of just this bound", () => {

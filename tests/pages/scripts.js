@@ -3,7 +3,7 @@
 const fs = require("node:fs");
 const path = require("node:path");
 
-const folder = path.join(__dirname, "../../src/wheelwright/page/assets");
+const folder = path.join(__dirname, "../../src/wheelwright/output/page/assets");
 
 // The constants that these scripts define, e.g. { planeView } of "plane_view"; in the order of the page, each sees those before
 // it.

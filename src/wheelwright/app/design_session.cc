@@ -14,10 +14,10 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
-#include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/files/written_files.h"
+#include "wheelwright/run/problem_size.h"
 #include "wheelwright/run/run_title.h"
 #include "wheelwright/run/stop_text.h"
 
@@ -156,7 +156,7 @@ RunSettings DesignSession::run_settings(std::size_t n_designs) const {
   settings.threads = options_.n_threads();
   if (const auto available = available_memory())
     settings.threads =
-        std::clamp(static_cast<int>(*available / estimated_memory(case_)), 1, settings.threads);
+        std::clamp(static_cast<int>(*available / estimated_memory(problem_size(case_))), 1, settings.threads);
   settings.stop_requested = [this] { return signals_.stop().has_value(); };
   settings.may_begin = [this] { return !is_time_over(); };
   settings.done = [this, n_designs, n_done = 0](const Design& design, const DesignResult& result) mutable {

@@ -10,7 +10,7 @@
 #include "wheelwright/app/signals.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/case/case.h"
-#include "wheelwright/explore/exploration.h"
+#include "wheelwright/design/explore/exploration.h"
 #include "wheelwright/run/folder_lock.h"
 
 namespace wheelwright {

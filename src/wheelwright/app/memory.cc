@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "wheelwright/case/derived.h"
+#include "wheelwright/run/problem_size.h"
 
 namespace wheelwright {
 namespace {
@@ -98,7 +98,7 @@ std::optional<double> address_space_left(const Path& root) {
 
 std::optional<std::string> lack_of_address_space(const Case& c, int n_threads, std::optional<double> left) {
   constexpr double per_thread = 200e6;  // stack, own heap, buffers of BLAS
-  const double needed = estimated_memory(c) + per_thread * n_threads;
+  const double needed = estimated_memory(problem_size(c)) + per_thread * n_threads;
   if (!left || needed <= *left) return {};
   return fmt::format(
       "it may need {:.0f} MB of address space on {} threads, but `ulimit -v` leaves {:.0f} MB; raise that "
@@ -107,7 +107,7 @@ std::optional<std::string> lack_of_address_space(const Case& c, int n_threads, s
 }
 
 std::optional<std::string> lack_of_memory(const Case& c, std::optional<double> available) {
-  const double needed = estimated_memory(c);
+  const double needed = estimated_memory(problem_size(c));
   if (!available || needed <= *available) return {};
   return fmt::format(
       "it needs about {:.0f} MB of memory, but only {:.0f} MB are available; use fewer cells or load "

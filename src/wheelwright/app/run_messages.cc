@@ -8,7 +8,7 @@
 
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/files/path_queries.h"
-#include "wheelwright/report/gains.h"
+#include "wheelwright/output/report/gains.h"
 #include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/failure_report.h"
 #include "wheelwright/run/stop_text.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/commands.h"
 
 namespace wheelwright {
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/trial_log.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/unlimited.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/roughness_warning.h"
 

@@ -7,9 +7,9 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/resume_point.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

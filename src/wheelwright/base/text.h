@@ -23,12 +23,6 @@ inline std::size_t utf8_length(std::string_view text) {
   return std::all_of(text.begin() + 2, text.begin() + length, continues) ? length : 0;
 }
 
-/// Whether a text is valid UTF-8.
-inline bool is_utf8(std::string_view text) {
-  while (const std::size_t length = utf8_length(text)) text.remove_prefix(length);
-  return text.empty();
-}
-
 /// Returns the text as one line that is safe to show on a terminal: tabs and line ends become spaces; other
 /// control characters (U+0000 to U+001F, U+007F to U+009F) and bytes that are not valid UTF-8 become '?'.
 inline std::string without_control_characters(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -75,6 +76,14 @@ constexpr std::array<double, dim> between(const std::array<double, dim>& a, cons
 }
 
 inline double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+/// The distance of x from the segment between a and b.
+inline double distance_to_segment(const Vec<2>& x, const Vec<2>& a, const Vec<2>& b) {
+  const Vec<2> along = b - a, from = x - a;
+  const double square = dot(along, along);
+  const double t = square > 0 ? std::clamp(dot(from, along) / square, 0.0, 1.0) : 0;
+  return distance(from, t * along);
+}
 
 /// The third component of the cross product: positive if b is to the left of a.
 constexpr double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }

@@ -8,14 +8,14 @@
 #include <variant>
 #include <vector>
 
-#include "wheelwright/drawing/fill.h"
-#include "wheelwright/elasticity/contact_form.h"
-#include "wheelwright/elasticity/dual_norm.h"
-#include "wheelwright/elasticity/ghost_penalty.h"
-#include "wheelwright/elasticity/material.h"
-#include "wheelwright/elasticity/side_faces.h"
-#include "wheelwright/functionals/quantities.h"
-#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/cad/drawing/fill.h"
+#include "wheelwright/mechanics/elasticity/contact_form.h"
+#include "wheelwright/mechanics/elasticity/dual_norm.h"
+#include "wheelwright/mechanics/elasticity/ghost_penalty.h"
+#include "wheelwright/mechanics/elasticity/material.h"
+#include "wheelwright/mechanics/elasticity/side_faces.h"
+#include "wheelwright/quantities/functionals/quantities.h"
+#include "wheelwright/shape/geometry/level_set.h"
 
 namespace wheelwright {
 
@@ -93,8 +93,8 @@ struct HoleSphere {
   int count = 0;
   double center_radius = 0;
   double radius = 0;
-  double z = 0;                 ///< of the centres, from the middle of the width
-  std::optional<double> phase;  ///< as for a ring
+  double z = 0;                      ///< of the centres, from the middle of the width
+  std::optional<double> phase = {};  ///< as for a ring
   bool operator==(const HoleSphere&) const = default;
 };
 
@@ -103,7 +103,7 @@ struct HoleTapered {
   int count = 0;
   double center_radius = 0;
   std::vector<std::array<double, 2>> profile;  ///< [z from the middle of the width, radius], z ascending
-  std::optional<double> phase;                 ///< as for a ring
+  std::optional<double> phase = {};            ///< as for a ring
   bool operator==(const HoleTapered&) const = default;
 };
 
@@ -125,7 +125,7 @@ struct CircleShape {
   int count = 0;
   double center_radius = 0;
   double radius = 0;
-  std::optional<double> phase;
+  std::optional<double> phase = {};
   bool operator==(const CircleShape&) const = default;
 };
 
@@ -137,7 +137,7 @@ struct EllipseShape {
   double length = 0;
   double width = 0;
   double angle = 0;  ///< of the length, from the direction away from the axle
-  std::optional<double> phase;
+  std::optional<double> phase = {};
   bool operator==(const EllipseShape&) const = default;
 };
 
@@ -150,7 +150,7 @@ struct SlotShape {
   double length = 0;  ///< over all
   double width = 0;
   double angle = 0;  ///< of the length, from the direction away from the axle
-  std::optional<double> phase;
+  std::optional<double> phase = {};
   bool operator==(const SlotShape&) const = default;
 };
 
@@ -167,8 +167,8 @@ struct PolygonShape {
 struct AnnulusShape {
   int order = 0;
   Fill as = Fill::hole;
-  std::optional<double> inner_radius;  ///< absent: the edge of the rim's band
-  std::optional<double> outer_radius;  ///< absent: the edge of the tread's band
+  std::optional<double> inner_radius = {};  ///< absent: the edge of the rim's band
+  std::optional<double> outer_radius = {};  ///< absent: the edge of the tread's band
   bool operator==(const AnnulusShape&) const = default;
 };
 
@@ -185,13 +185,13 @@ struct SpokeShape {
   SpokeKind kind = SpokeKind::straight;
   int count = 0;
   double thickness = 0;
-  double angle = 0;                   ///< azimuth of the outer end minus that of the foot
-  double bend = 0;                    ///< by which a curved spoke turns towards larger azimuth on its way out
-  double spread = 0;                  ///< between the outer ends of a fork, or the feet of a pair
-  std::optional<double> fork_radius;  ///< absent: the middle of the spoke
-  std::optional<double> inner_radius;  ///< of the foot; absent: the rim
-  std::optional<double> outer_radius;  ///< of the outer end; absent: the tread
-  std::optional<double> phase;
+  double angle = 0;   ///< azimuth of the outer end minus that of the foot
+  double bend = 0;    ///< by which a curved spoke turns towards larger azimuth on its way out
+  double spread = 0;  ///< between the outer ends of a fork, or the feet of a pair
+  std::optional<double> fork_radius = {};   ///< absent: the middle of the spoke
+  std::optional<double> inner_radius = {};  ///< of the foot; absent: the rim
+  std::optional<double> outer_radius = {};  ///< of the outer end; absent: the tread
+  std::optional<double> phase = {};
   bool operator==(const SpokeShape&) const = default;
 };
 
@@ -286,6 +286,13 @@ enum class OverPositions {
   each,   ///< every one
 };
 
+/// A term of the weighted sum besides those that have a key for their weight.
+struct ObjectiveTerm {
+  Quantity quantity = {};
+  double weight = 1;
+  bool operator==(const ObjectiveTerm&) const = default;
+};
+
 /// Weights of the functionals in J, and parameters of the functionals.
 struct Objective {
   Quantity minimize = {};  ///< by default the sum with the weights below
@@ -299,6 +306,7 @@ struct Objective {
   std::optional<double> length;                ///< L; absent: epsilon
   MeanStress mean = MeanStress::exact;
   DualNorm dual_norm = DualNorm::elasticity;  ///< of J_p2
+  std::vector<ObjectiveTerm> terms = {};
   bool operator==(const Objective&) const = default;
 };
 

@@ -19,7 +19,6 @@ inline constexpr Range cell_count = between(1, 100000);
 template <class Struct>
 Key<Struct> fill_key(ChoiceField<Struct> field) {
   return {.name = "as",
-          .unit = "",
           .field = std::move(field),
           .meaning = "what is drawn over the earlier shapes: material or a hole"};
 }
@@ -27,7 +26,6 @@ Key<Struct> fill_key(ChoiceField<Struct> field) {
 template <class Struct>
 Key<Struct> count_key() {
   return {.name = "count",
-          .unit = "",
           .field = IntegerField<Struct>{&Struct::count, between(1, 100000)},
           .meaning = "how many, evenly spaced around the full wheel; a multiple of wheel.sectors",
           .presence = Presence::required};

@@ -7,7 +7,6 @@
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/hole_rings.h"
 #include "wheelwright/case/objective_weights.h"
-#include "wheelwright/elasticity/element.h"
 
 namespace wheelwright {
 
@@ -164,12 +163,6 @@ double radial_cell(const Case& c) {
 
 bool minimizes_weighted_sum(const Case& c) { return c.objective.minimize == Quantity(); }
 
-bool holds_volume(const Case& c) {
-  const auto is_free = [](const Quantity& quantity) { return quantity->is_amount_of_material; };
-  return !is_free(c.objective.minimize) &&
-         std::ranges::none_of(c.constraints, is_free, &Constraint::quantity);
-}
-
 namespace {
 
 /// Whether quantities with this property are minimized, bounded or terms of the weighted sum.
@@ -179,10 +172,13 @@ bool optimizes_any(const Case& c, bool QuantityRow::*property) {
     return c.objective.*term.weight > 0 && has_it(built_in(term.quantity));
   };
   return has_it(c.objective.minimize) || std::ranges::any_of(c.constraints, has_it, &Constraint::quantity) ||
+         std::ranges::any_of(c.objective.terms, has_it, &ObjectiveTerm::quantity) ||
          std::ranges::any_of(objective_weights, is_such_term);
 }
 
 }  // namespace
+
+bool holds_volume(const Case& c) { return !optimizes_any(c, &QuantityRow::is_amount_of_material); }
 
 bool wants_annulus(const Case& c) {
   return c.objective.annulus_matches_dual.has_value() || optimizes_any(c, &QuantityRow::observes_annulus);
@@ -210,8 +206,8 @@ PolarGrid<dim> polar_grid(const Case& c) {
   if constexpr (dim == 3) grid.cells[2] = c.grid.axial_cells;
   return grid;
 }
-template PolarGrid<2> polar_grid(const Case&);
-template PolarGrid<3> polar_grid(const Case&);
+template decltype(polar_grid<2>) polar_grid<2>;
+template decltype(polar_grid<3>) polar_grid<3>;
 
 Bands bands(const Case& c) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;
@@ -249,14 +245,10 @@ void for_each_in_sector(const Case& c, int count, const std::optional<double>& p
 
 std::vector<Circle> sector_holes(const Case& c) {
   std::vector<Circle> holes;
-  for (const HoleRing& ring : c.holes.rings)
-    for_each_in_sector(c, ring.count, ring.phase, [&](double azimuth) {
-      holes.push_back({ring.center_radius, azimuth, ring.radius});
+  for (const NamedRing& named : named_rings(c))
+    for_each_in_sector(c, named.ring.count, named.ring.phase, [&](double azimuth) {
+      holes.push_back({named.ring.center_radius, azimuth, named.ring.radius});
     });
-  for (const HoleCircle& circle : c.holes.circles) {
-    const auto [x, y] = circle.center;
-    holes.push_back({std::hypot(x, y), std::atan2(y, x), circle.radius});
-  }
   return holes;
 }
 
@@ -281,184 +273,14 @@ std::vector<TaperedHole> sector_tapered_holes(const Case& c) {
   return holes;
 }
 
-namespace {
-
-/// Nodes of the displacement along the axle.
 long long axial_nodes(const Case& c) {
   return c.wheel.dimension == 3 ? static_cast<long long>(c.grid.degree) * c.grid.axial_cells + 1 : 1;
 }
-
-}  // namespace
 
 long long dof_bound(const Case& c) {
   const long long radial = static_cast<long long>(c.grid.degree) * c.grid.radial_cells + 1;
   const long long angular = static_cast<long long>(c.grid.degree) * c.grid.angular_cells;
   return c.wheel.dimension * radial * angular * axial_nodes(c);
-}
-
-namespace {
-
-bool wants_dual(const Case& c) {
-  return c.objective.uniformity_dual > 0 || c.objective.annulus_matches_dual.has_value();
-}
-
-/// Number of tread columns that contact may reach [cells of the tread, before they are halved].
-double contact_columns(const Case& c) {
-  const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
-  const double half_width = c.contact.with == Counterpart::ring ? likely_half_width(c)
-                            : c.load.travel ? std::sqrt(2 * c.wheel.outer_radius * *c.load.travel)
-                                            : hertz_half_width(c);
-  constexpr double margin = 4;
-  return std::min(2 * half_width / cell + margin, static_cast<double>(c.grid.angular_cells));
-}
-
-constexpr double square(double x) { return x * x; }
-constexpr double cube(double x) { return x * x * x; }
-
-/// Whether the profile of a tapered hole is symmetric about the middle of the width.
-bool is_even(const HoleTapered& hole) {
-  const auto& profile = hole.profile;
-  for (std::size_t k = 0; k < profile.size(); ++k) {
-    const auto &there = profile[profile.size() - 1 - k], &here = profile[k];
-    if (std::abs(here[0] + there[0]) > 1e-12 || std::abs(here[1] - there[1]) > 1e-12) return false;
-  }
-  return true;
-}
-
-/// Whether wheel and loads are symmetric across the width, so that half of it is solved. Spheres off the
-/// middle count as asymmetric.
-bool is_halved(const Case& c) {
-  if (c.wheel.dimension != 3 || c.grid.axial_cells % 2 != 0) return false;
-  for (const Case& single : single_load_cases(c))
-    if (single.load.camber != 0 || single.load.lateral_force != 0) return false;
-  return std::ranges::all_of(c.holes.spheres, [](const HoleSphere& sphere) { return sphere.z == 0; }) &&
-         std::ranges::all_of(c.holes.tapered, is_even);
-}
-
-/// Whether the holes of a case are symmetric about the plane of azimuth 0, so that its harmonics are real.
-/// Drawn shapes count as asymmetric.
-bool has_real_harmonics(const Case& c) {
-  if (c.shapes != Shapes{} || !c.holes.circles.empty()) return false;
-  const auto is_its_image = [](const auto& hole) {
-    const double spacings = hole.phase.value_or(0) * hole.count / pi;  // between the hole and its image
-    return std::abs(spacings - std::round(spacings)) < 1e-9;
-  };
-  return std::ranges::all_of(c.holes.rings, is_its_image) &&
-         std::ranges::all_of(c.holes.spheres, is_its_image) &&
-         std::ranges::all_of(c.holes.tapered, is_its_image);
-}
-
-/// The sizes that determine memory and time of a run. For a wheel solved on half of its width, those of the
-/// half except `dofs`, `cells` and `observed`.
-struct ProblemSize {
-  double sectors, positions;
-  double columns, cells;          ///< of the full ring
-  double dofs, sector_dofs;       ///< if every cell held material
-  double radial_line, ring_line;  ///< dofs of a face between sectors, and of the core's outer line
-  double tractions;               ///< components at the contact points of a column
-  double observed;                ///< numbers observed per column of the tread
-  double zone_columns, loaded_columns;
-
-  double sector_line() const { return ring_line / sectors; }
-  double boundary() const { return radial_line + sector_line(); }
-  /// Boundary unknowns of the harmonics if they are complex: of large interfaces only the strong modes.
-  double complex_boundary() const {
-    return (has_strong_modes() ? radial_line / 3 : radial_line) + sector_line();
-  }
-  bool has_strong_modes() const { return radial_line >= 1000 && sectors >= 10; }
-};
-
-ProblemSize problem_size(const Case& c) {
-  const bool in_3d = c.wheel.dimension == 3;
-  const double solved = is_halved(c) ? 0.5 : 1;
-  const double per_line_node =
-      c.wheel.dimension * solved * static_cast<double>(axial_nodes(c) + (solved < 1));
-  const int axial_points = std::min(c.contact.quadrature_points, c.grid.degree + 1);
-  const double points = c.contact.quadrature_points * (1 << tread_levels_of_results(c)) *
-                        (in_3d ? axial_points * c.grid.axial_cells : 1);  // per column
-  ProblemSize size{};
-  size.sectors = c.wheel.sectors;
-  size.positions = c.load.positions * static_cast<double>(std::max<std::size_t>(c.load.cases.size(), 1));
-  size.columns = c.grid.angular_cells;
-  size.cells = size.columns * c.grid.radial_cells * (in_3d ? c.grid.axial_cells : 1);
-  size.dofs = static_cast<double>(dof_bound(c));
-  size.sector_dofs = solved * size.dofs / size.sectors;
-  size.radial_line = per_line_node * (c.grid.degree * c.grid.radial_cells + 1);
-  size.ring_line = per_line_node * c.grid.degree * size.columns;
-  size.tractions = c.wheel.dimension * solved * points;
-  size.observed = 2 * c.wheel.dimension * points;
-  for (const Case& single : single_load_cases(c))
-    size.zone_columns = std::max(size.zone_columns, contact_columns(single));
-  size.loaded_columns = std::min(size.columns / size.sectors, size.positions * size.zone_columns);
-  return size;
-}
-
-/// The number of copies of each array at the peak of memory, fitted to measurements.
-struct Copies {
-  double condensed, harmonics, surface;
-};
-constexpr Copies in_the_plane{3.5, 0.55, 0.1}, in_space{3, 0.55, 4};
-
-/// The problem's size if a ghost penalty acts on all faces between sectors.
-ProblemSize problem_size_of_grooves(const Case& c) {
-  ProblemSize size = problem_size(c);
-  const double derivatives = size.radial_line * n_compared_derivatives(c.ghost_penalty, c.grid.degree);
-  size.radial_line += derivatives;
-  size.sector_dofs += 2 * derivatives;
-  return size;
-}
-
-double estimated_memory(const Case& c, const ProblemSize& n) {
-  constexpr double number = sizeof(double), complex = 2 * number;
-  const bool in_3d = c.wheel.dimension == 3;
-  const Copies& copies = in_3d ? in_space : in_the_plane;
-  double holes = 0;
-  for (const HoleRing& ring : c.holes.rings) holes += ring.count / n.sectors;
-
-  const double libraries = 26e6;
-  const double fields = number * (is_halved(c) ? 0.5 : 1) * (56 * n.cells + 4.6 * n.dofs * n.positions);
-  // Fill of nested dissection: n log n in the plane, n^(4/3) in space.
-  const double fill = in_3d ? 6 * std::pow(n.sector_dofs, 4.0 / 3)
-                            : 0.6 * n.sector_dofs * std::log2(std::max(n.sector_dofs, 2.0));
-  const double factor = number * fill;
-  const double condensed = number * copies.condensed * square(2 * n.radial_line + n.sector_line());
-  const bool real_harmonics = in_3d && has_real_harmonics(c);
-  const double harmonics =
-      copies.harmonics * (n.sectors / 2 + 1) *
-      (real_harmonics ? number * square(n.boundary()) : complex * square(n.complex_boundary()));
-  // Right-hand sides on the outer line that are solved together.
-  const double responses = number * 5 * 192 * n.ring_line;
-  const double surface =
-      number * copies.surface * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
-  const double tread = number * (8 * square(2 * n.tractions) + 1.8 * n.observed * n.columns * n.positions);
-  const double zones = number * 0.1 * n.positions * square(n.zone_columns * n.tractions);
-  const double shape = number * 10 * holes;
-  // The dual norm has its own ring, and so does a finer tread of the results.
-  const double rings = 1 + wants_dual(c) + (tread_levels_of_results(c) > tread_levels(c));
-  return libraries + fields + rings * (factor + condensed + harmonics) + responses + surface + tread + zones +
-         shape;
-}
-
-double estimated_seconds_in_3d(const Case& c, const ProblemSize& n) {
-  const bool real = has_real_harmonics(c);
-  constexpr double flops_per_second = 45e9;  // dense matrices on one core
-  const double boundary = real ? n.boundary() : n.complex_boundary();
-  const double flops = cube(boundary) / 3 + 2 * cube(n.sector_line()) / 3;
-  const double strong_modes = real || !n.has_strong_modes() ? 0 : 13 * cube(n.radial_line);
-  const double harmonics = ((real ? 1 : 4) * (n.sectors / 2 + 1) * flops + strong_modes) / flops_per_second;
-  const double sector = 2e-9 * square(n.sector_dofs);
-  const double contact =
-      (real ? 2.5e-7 : 6e-7) * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
-  return harmonics + sector + contact;
-}
-
-}  // namespace
-
-double estimated_memory(const Case& c) { return estimated_memory(c, problem_size(c)); }
-double estimated_memory_of_grooves(const Case& c) { return estimated_memory(c, problem_size_of_grooves(c)); }
-double estimated_seconds_in_3d(const Case& c) { return estimated_seconds_in_3d(c, problem_size(c)); }
-double estimated_seconds_of_grooves_in_3d(const Case& c) {
-  return estimated_seconds_in_3d(c, problem_size_of_grooves(c));
 }
 
 double minimum_gamma_0(double theta, const Material& material, double aspect) {

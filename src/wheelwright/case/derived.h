@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "wheelwright/case/case.h"
-#include "wheelwright/geometry/bands.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/geometry/bands.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 
@@ -129,24 +129,12 @@ std::vector<Circle> sector_holes(const Case& c);
 std::vector<Sphere> sector_spheres(const Case& c);
 std::vector<TaperedHole> sector_tapered_holes(const Case& c);
 
+/// Nodes of the displacement along the axle: 1 in 2D.
+long long axial_nodes(const Case& c);
+
 /// Number of displacement unknowns of the full ring if every cell held material: an upper bound. Including
 /// those of fixed rims and side faces.
 long long dof_bound(const Case& c);
-
-/// Estimated peak memory of a run [bytes], within a factor of 1.25 (docs/performance.md): the libraries, the
-/// fields of the full ring, the factor of one sector and its condensed stiffness, the harmonics of its
-/// interfaces, the compliances of the outer line and of the surface, the tread's observations and the contact
-/// zones.
-double estimated_memory(const Case& c);
-
-/// Estimated time of one shape of a case in 3D on one core [s], within a factor of two: the harmonics, the
-/// sector's factor and the contact operator, with known sizes and measured speeds.
-double estimated_seconds_in_3d(const Case& c);
-
-/// Bounds of the same for shapes whose edges cross all faces between sectors, such as grooves around the
-/// wheel: then derivatives on the faces are unknowns too.
-double estimated_memory_of_grooves(const Case& c);
-double estimated_seconds_of_grooves_in_3d(const Case& c);
 
 /// The minimum gamma_0 for which Nitsche's method is safe with this theta and material. At nu = 0.48 in plane
 /// strain it is 0 for theta = -1, about 10 for theta = 0 and 100 for theta = 1. In between it is

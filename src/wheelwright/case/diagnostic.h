@@ -20,9 +20,9 @@ struct Diagnostic {
 
   Kind kind;
   std::string file;
-  int line, column;   ///< from 1; 0 if there is no such position
-  std::string key;    ///< path, e.g. "wheel.sectors" or "holes.ring[2].count" (from 1); may be empty
-  std::string value;  ///< as in the file; may be empty
+  int line = 0, column = 0;  ///< from 1; 0 if there is no such position
+  std::string key = {};      ///< path, e.g. "wheel.sectors" or "holes.ring[2].count" (from 1); may be empty
+  std::string value = {};    ///< as in the file; may be empty
   std::string problem;
   std::string remedy;  ///< what to do; may be empty
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "wheelwright/cad/drawing/drawing.h"
+#include "wheelwright/cad/drawing/parts.h"
+#include "wheelwright/cad/drawing/picture_outline.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
-#include "wheelwright/drawing/drawing.h"
-#include "wheelwright/drawing/parts.h"
-#include "wheelwright/drawing/picture_outline.h"
 
 namespace wheelwright {
 

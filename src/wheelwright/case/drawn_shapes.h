@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/cad/drawing/composition.h"
 #include "wheelwright/case/case.h"
-#include "wheelwright/drawing/composition.h"
 
 namespace wheelwright {
 

@@ -9,27 +9,10 @@ const SectionArray<HoleRing>& ring_sections() {
       .meaning =
           "holes of the initial shape: equal circles, evenly spaced about the axle; give any number of rings",
       .in = [](Case& c) -> std::vector<HoleRing>& { return c.holes.rings; },
-      .example = {.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}},
-      .keys = {{.name = "count",
-                .unit = "",
-                .field = IntegerField<HoleRing>{&HoleRing::count, between(1, 100000)},
-                .meaning = "number of holes around the full wheel, a multiple of wheel.sectors",
-                .presence = Presence::required},
-               {.name = "center_radius",
-                .unit = "m",
-                .field = NumberField<HoleRing>{&HoleRing::center_radius, length},
-                .meaning = "distance from the axle to the centres",
-                .presence = Presence::required},
-               {.name = "radius",
-                .unit = "m",
-                .field = NumberField<HoleRing>{&HoleRing::radius, length},
-                .meaning = "radius of each hole",
-                .presence = Presence::required},
-               {.name = "phase",
-                .unit = "deg",
-                .field = OptionalNumberField<HoleRing>{&HoleRing::phase, between(-360, 360),
-                                                       "half the spacing, 180 / count", degree_of_arc},
-                .meaning = "azimuth of the first centre; the first sector begins at azimuth 0"}}};
+      .example = {.count = 16, .center_radius = 0.27, .radius = 0.04},
+      .keys = {count_key<HoleRing>(), center_radius_key<HoleRing>(),
+               length_key(&HoleRing::radius, "radius", "radius of each hole"),
+               phase_key<HoleRing>(phase_of_centre)}};
   return sections;
 }
 
@@ -46,11 +29,7 @@ const SectionArray<HoleCircle>& circle_sections() {
            .field = PointField<HoleCircle>{&HoleCircle::center, between(-1000, 1000)},
            .meaning = "[x, y] of the centre in one sector; the axle is at [0, 0], and azimuth 0 is along x",
            .presence = Presence::required},
-          {.name = "radius",
-           .unit = "m",
-           .field = NumberField<HoleCircle>{&HoleCircle::radius, length},
-           .meaning = "radius of the hole",
-           .presence = Presence::required}}};
+          length_key(&HoleCircle::radius, "radius", "radius of the hole")}};
   return sections;
 }
 
@@ -62,7 +41,7 @@ const SectionArray<HoleSphere>& sphere_sections() {
           "in 3D, spherical holes of the initial shape, evenly spaced about the axle; give any number of "
           "them",
       .in = [](Case& c) -> std::vector<HoleSphere>& { return c.holes.spheres; },
-      .example = {.count = 16, .center_radius = 0.27, .radius = 0.03, .z = 0, .phase = {}},
+      .example = {.count = 16, .center_radius = 0.27, .radius = 0.03, .z = 0},
       .keys = {count_key<HoleSphere>(),
                center_radius_key<HoleSphere>(),
                length_key(&HoleSphere::radius, "radius", "radius of each hole"),
@@ -77,7 +56,7 @@ const SectionArray<HoleSphere>& sphere_sections() {
 namespace {
 
 HoleTapered conical_holes() {
-  HoleTapered holes{.count = 16, .center_radius = 0.27, .profile = {}, .phase = {}};
+  HoleTapered holes{.count = 16, .center_radius = 0.27, .profile = {}};
   holes.profile = {{-0.06, 0.04}, {0, 0.03}, {0.06, 0.04}};
   return holes;
 }

@@ -149,7 +149,7 @@ enum class Presence { has_default, required };
 template <class Struct>
 struct Key {
   std::string_view name;
-  std::string_view unit;  ///< empty for pure numbers and words
+  std::string_view unit = {};  ///< empty for pure numbers and words
   std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
                OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>,
                OptionalPointField<Struct>, PointsField<Struct>, ChoiceField<Struct>, QuantityField<Struct>>
@@ -208,6 +208,7 @@ const SectionArray<PictureShape>& picture_shape_sections();
 const Section<Grid>& grid_section();
 const Section<GhostPenalty>& ghost_penalty_section();
 const Section<Objective>& objective_section();
+const SectionArray<ObjectiveTerm>& objective_term_sections();
 const SectionArray<Constraint>& constraint_sections();
 const Section<Volume>& volume_section();
 const Section<Optimizer>& optimizer_section();
@@ -245,6 +246,7 @@ void for_each_section(Visitor&& visit) {
   visit(grid_section());
   visit(ghost_penalty_section());
   visit(objective_section());
+  visit(objective_term_sections());
   visit(constraint_sections());
   visit(volume_section());
   visit(optimizer_section());

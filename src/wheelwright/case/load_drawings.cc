@@ -4,10 +4,10 @@
 
 #include <optional>
 
+#include "wheelwright/cad/drawing/drawing.h"
+#include "wheelwright/cad/drawing/png_file.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/named_file.h"
-#include "wheelwright/drawing/drawing.h"
-#include "wheelwright/drawing/png_file.h"
 
 namespace wheelwright {
 

@@ -58,7 +58,6 @@ const Section<Load>& load_section() {
                       "volume; travel and stiffness are measured from where the rotating "
                       "wheel stands without load; needs material.density"},
           {.name = "positions",
-           .unit = "",
            .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
            .meaning = "N_d: number of load positions per sector, any on any grid"}}};
   return section;
@@ -87,13 +86,11 @@ const SectionArray<CaseLoad>& load_case_sections() {
       .example = example_load_case(),
       .keys = {
           {.name = "name",
-           .unit = "",
            .field = TextField<CaseLoad>{&CaseLoad::name, ""},
            .meaning =
                "a word of letters, digits, - and _, for constraints and for the columns of history.csv",
            .presence = Presence::required},
           {.name = "weight",
-           .unit = "",
            .field = NumberField<CaseLoad>{&CaseLoad::weight, between(0, 1e9)},
            .meaning = "weight of this load in the objective; 0: it is used only in constraints"},
           {.name = "mass",

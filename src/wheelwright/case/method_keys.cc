@@ -8,30 +8,24 @@ const Section<Contact>& contact_section() {
       .meaning = "contact of the tread with the ground",
       .in = [](Case& c) -> Contact& { return c.contact; },
       .keys = {{.name = "with",
-                .unit = "",
                 .field = choice<&Contact::with>({"ground", "ring"}),
                 .meaning = "what the tread is in contact with: flat ground on which it rolls, or a rigid "
                            "ring to which all of it is bonded, as in a bushing; the load then presses the "
                            "rim towards each load position"},
                {.name = "method",
-                .unit = "",
                 .field = choice<&Contact::method>({"nitsche", "penalty"}),
                 .meaning = "Nitsche's method (28) or penalty (22)"},
                {.name = "theta",
-                .unit = "",
                 .field = NumberField<Contact>{&Contact::theta, any_number},
                 .meaning = "Nitsche's parameter; -1 works with any gamma_0, 0 and 1 need a large one"},
                {.name = "gamma_0",
-                .unit = "",
                 .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
                 .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell; in plane "
                            "stress with E (1 + 2 nu) / (1 + nu)^2 for E"},
                {.name = "friction",
-                .unit = "",
                 .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
                 .meaning = "coefficient F of Coulomb's static friction (16)"},
                {.name = "quadrature_points",
-                .unit = "",
                 .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
                 .meaning =
                     "number of Gauss points on each contact face; in 3D along the ground, and along the axle "
@@ -46,33 +40,27 @@ const Section<Grid>& grid_section() {
       .in = [](Case& c) -> Grid& { return c.grid; },
       .keys = {
           {.name = "radial_cells",
-           .unit = "",
            .field =
                IntegerField<Grid>{&Grid::radial_cells, cell_count, "28, or the nearest number that fits"},
            .meaning = "number of cells from rim to tread; it fits if it can be halved "
                       "optimizer.coarse_levels times, "
                       "and the annulus and the given bands are whole rows"},
           {.name = "angular_cells",
-           .unit = "",
            .field =
                IntegerField<Grid>{&Grid::angular_cells, cell_count, "384, or the nearest number that fits"},
            .meaning = "number of cells around the full ring, a multiple of wheel.sectors that can be halved "
                       "optimizer.coarse_levels times in each sector"},
           {.name = "axial_cells",
-           .unit = "",
            .field = IntegerField<Grid>{&Grid::axial_cells, cell_count, "4, or the nearest number that fits"},
            .meaning = "in 3D, number of cells along the axle; if it is even, a wheel that is symmetric "
                       "across the width is solved on half of it"},
           {.name = "degree",
-           .unit = "",
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},
            .meaning = "polynomial degree of the displacement"},
           {.name = "level_set_degree",
-           .unit = "",
            .field = OptionalIntegerField<Grid>{&Grid::level_set_degree, between(1, 2), "2; in 3D 1", "auto"},
            .meaning = "polynomial degree of the level set"},
           {.name = "tread_levels",
-           .unit = "",
            .field = OptionalIntegerField<Grid>{&Grid::tread_levels, between(0, 6),
                                                "8 cells across the contact patch in a run, 36 in an analysis "
                                                "and in the results of a run; in 3D 0",
@@ -90,12 +78,10 @@ const Section<GhostPenalty>& ghost_penalty_section() {
       .in = [](Case& c) -> GhostPenalty& { return c.ghost_penalty; },
       .keys = {
           {.name = "kind",
-           .unit = "",
            .field = choice<&GhostPenalty::kind>({"full", "paper"}),
            .meaning = "full: jumps of the stress and of the second normal derivative on all faces of cut "
                       "cells; paper: only the jump of the stress, by (81), which is unsafe for degree 2"},
           {.name = "xi",
-           .unit = "",
            .field = NumberField<GhostPenalty>{&GhostPenalty::xi, between(0, 1)},
            .meaning = "weight; a large value stiffens the structure"}}};
   return section;

@@ -31,12 +31,34 @@ void check_objective(const Case& c, Conflicts& found) {
                      "the weight of J_p1 is given twice",
                      "keep one of annulus_matches_dual and uniformity_annulus"});
   const auto has_weight = [&o](const ObjectiveWeight& term) { return o.*term.weight > 0; };
-  if (std::ranges::any_of(objective_weights, has_weight) || o.annulus_matches_dual ||
-      !minimizes_weighted_sum(c))
+  const auto is_term = [](const ObjectiveTerm& term) { return term.weight > 0; };
+  if (std::ranges::any_of(objective_weights, has_weight) || std::ranges::any_of(o.terms, is_term) ||
+      o.annulus_matches_dual || !minimizes_weighted_sum(c))
     return;
   found.push_back({{"objective.strain_energy"},
                    "all weights are 0: there is nothing to minimize",
                    "set at least one weight > 0"});
+}
+
+/// Checks the further terms of the weighted sum.
+void check_terms(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.objective.terms.size(); ++i) {
+    const Quantity& quantity = c.objective.terms[i].quantity;
+    const std::string key = fmt::format("objective.term[{}].quantity", i + 1);
+    if (quantity == Quantity()) {
+      found.push_back({{key}, "the sum is no term of itself", "name another quantity"});
+      continue;
+    }
+    if (const std::string& remedy = quantity->instead; !remedy.empty())
+      found.push_back({{key}, "the optimizer has no derivative of it", remedy});
+    check_load_cases(c, weighted_load_cases(c), found, [&](const Case& single, Conflicts& of_case) {
+      for (const Need& need : unmet_needs(single, quantity))
+        of_case.push_back({{key, need.key}, need.problem, "change that key, or remove the term"});
+      if (const auto constant = constancy(single, quantity))
+        of_case.push_back(
+            {{key, constant->key}, constant->problem, constant->remedy + ", or remove the term"});
+    });
+  }
 }
 
 /// Checks what is minimized instead of the weighted sum.
@@ -75,6 +97,7 @@ void check_minimized(const Case& c, Conflicts& found) {
 void objective_conflicts(const Case& c, Conflicts& found) {
   check_annulus(c, found);
   check_objective(c, found);
+  check_terms(c, found);
   check_minimized(c, found);
 }
 

@@ -15,35 +15,28 @@ const Section<Objective>& objective_section() {
       .in = [](Case& c) -> Objective& { return c.objective; },
       .keys = {
           {.name = "minimize",
-           .unit = "",
            .field = QuantityField<Objective>{&Objective::minimize},
            .meaning = "what is minimized; objective: the weighted sum; any other quantity replaces it, and "
                       "the weights then only select the functionals in history.csv"},
           {.name = "over",
-           .unit = "",
            .field = choice<&Objective::over>({"mean", "worst"}),
            .meaning = "how `minimize` is aggregated over the load positions: mean, or the maximum; not for "
                       "the weighted sum"},
           {.name = "strain_energy",
-           .unit = "",
            .field = NumberField<Objective>{&Objective::strain_energy, between(0, 1e9)},
            .meaning = "weight of the strain energy J_e (3)"},
           {.name = "uniformity_annulus",
-           .unit = "",
            .field = NumberField<Objective>{&Objective::uniformity_annulus, between(0, 1e9)},
            .meaning = "weight alpha_1 of J_p1 (60): uniformity of the contact stress over the load "
                       "positions, in an annulus"},
           {.name = "uniformity_dual",
-           .unit = "",
            .field = NumberField<Objective>{&Objective::uniformity_dual, between(0, 1e9)},
            .meaning = "weight alpha_2 of J_p2 (61): uniformity of the contact stress over the load "
                       "positions, in H^-1/2"},
           {.name = "uniformity_l2",
-           .unit = "",
            .field = NumberField<Objective>{&Objective::uniformity_l2, between(0, 1e9)},
            .meaning = "weight of J_p (4), the naive uniformity functional; for comparison"},
           {.name = "annulus_matches_dual",
-           .unit = "",
            .field = OptionalNumberField<Objective>{&Objective::annulus_matches_dual, above(0, 1e9),
                                                    "uniformity_annulus is used"},
            .meaning =
@@ -58,12 +51,10 @@ const Section<Objective>& objective_section() {
            .field = OptionalNumberField<Objective>{&Objective::length, above(0, 1000), "epsilon"},
            .meaning = "L: characteristic length of J_p1 and J_p"},
           {.name = "mean",
-           .unit = "",
            .field = choice<&Objective::mean>({"exact", "held"}),
            .meaning = "mean contact stress p_mean (73); exact: of the shape itself; held: of the last "
                       "accepted shape, as in the paper"},
           {.name = "dual_norm",
-           .unit = "",
            .field = choice<&Objective::dual_norm>({"elasticity", "poisson"}),
            .meaning =
                "the problem on the ring without holes that defines the H^-1/2 norm of J_p2; elasticity: "
@@ -74,6 +65,8 @@ const Section<Objective>& objective_section() {
 
 namespace {
 
+ObjectiveTerm example_term() { return {.quantity = built_in("peak_von_mises"), .weight = 1e-6}; }
+
 Constraint example_constraint() {
   Constraint energy;
   energy.quantity = built_in("strain_energy");
@@ -82,6 +75,27 @@ Constraint example_constraint() {
 }
 
 }  // namespace
+
+const SectionArray<ObjectiveTerm>& objective_term_sections() {
+  static const SectionArray<ObjectiveTerm> sections{
+      .parent = "objective",
+      .name = "term",
+      .meaning =
+          "a further term of the weighted sum, summed over all load positions if the quantity has a value "
+          "at each; any number of tables",
+      .in = [](Case& c) -> std::vector<ObjectiveTerm>& { return c.objective.terms; },
+      .example = example_term(),
+      .keys = {{.name = "quantity",
+                .unit = "",
+                .field = QuantityField<ObjectiveTerm>{&ObjectiveTerm::quantity},
+                .meaning = "any quantity with a derivative",
+                .presence = Presence::required},
+               {.name = "weight",
+                .unit = "",
+                .field = NumberField<ObjectiveTerm>{&ObjectiveTerm::weight, between(0, 1e9)},
+                .meaning = "its weight, by which its number in SI units is multiplied"}}};
+  return sections;
+}
 
 const SectionArray<Constraint>& constraint_sections() {
   static const SectionArray<Constraint> sections{
@@ -95,7 +109,6 @@ const SectionArray<Constraint>& constraint_sections() {
       .example = example_constraint(),
       .keys = {
           {.name = "quantity",
-           .unit = "",
            .field = QuantityField<Constraint>{&Constraint::quantity},
            .meaning = "what is bounded, by the names of history.csv and [[expect]]",
            .presence = Presence::required},
@@ -114,12 +127,10 @@ const SectionArray<Constraint>& constraint_sections() {
            .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
            .meaning = "the required value, instead of bounds"},
           {.name = "over",
-           .unit = "",
            .field = choice<&Constraint::over>({"mean", "worst", "each"}),
            .meaning = "how the quantity is aggregated over the load positions: mean, worst, or each one with "
                       "its own bound"},
           {.name = "load_case",
-           .unit = "",
            .field = TextField<Constraint>{&Constraint::load_case, "every load case"},
            .meaning = "the name of the [[load.case]] to which it applies"}}};
   return sections;
@@ -132,18 +143,15 @@ const Section<Volume>& volume_section() {
       .in = [](Case& c) -> Volume& { return c.volume; },
       .keys = {
           {.name = "control",
-           .unit = "",
            .field = choice<&Volume::control>({"exact", "paper"}),
            .meaning = "exact: every shape has the target volume once it is reached; paper: the rule "
                       "lambda_k of section 4.2, "
                       "which lets the volume drift"},
           {.name = "target",
-           .unit = "",
            .field = OptionalNumberField<Volume>{&Volume::target, above(0, 1), "that of the initial shape"},
            .meaning = "material as a fraction of the ring; the run changes the volume to it from that of the "
                       "initial shape"},
           {.name = "rate",
-           .unit = "",
            .field = NumberField<Volume>{&Volume::rate, above(0, 1)},
            .meaning = "on the way to the target the volume changes by at most this fraction of the ring per "
                       "shape; only with control = \"exact\""}}};
@@ -156,25 +164,21 @@ namespace {
 std::vector<Key<Optimizer>> search_keys() {
   return {
       {.name = "method",
-       .unit = "",
        .field = choice<&Optimizer::method>({"auto", "sequential_quadratic", "descent"}),
        .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from earlier "
                   "shapes; descent: along the gradient; auto: descent with volume.control = "
                   "\"paper\" and "
                   "with velocity = \"harmonic\", which need it, else sequential_quadratic"},
       {.name = "iterations",
-       .unit = "",
        .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, unlimited_iterations)},
        .meaning = "maximum number of accepted shapes after the initial one"},
       {.name = "coarse_levels",
-       .unit = "",
        .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
        .meaning = "the descent starts on a grid whose cells are doubled this many times along each axis, and "
                   "moves to the next finer one when J has fallen by less than 0.5 % in 6 trials (with "
                   "method = \"descent\" over 10 shapes), until "
                   "it is on the case's own grid; 0: on the case's own grid from the start"},
       {.name = "velocity",
-       .unit = "",
        .field = choice<&Optimizer::velocity>({"auto", "vector", "h1", "harmonic"}),
        .meaning = "what moves the boundary. vector: a smooth vector field; h1: a smooth speed along the "
                   "normal; harmonic: the speed of the paper's harmonic extension; auto: vector with "
@@ -191,16 +195,13 @@ std::vector<Key<Optimizer>> search_keys() {
                                                "1.25; with method = \"descent\" 0.5"},
        .meaning = "maximum move of the boundary from one shape to the next"},
       {.name = "max_halvings",
-       .unit = "",
        .field = IntegerField<Optimizer>{&Optimizer::max_halvings, between(0, 50)},
        .meaning = "how many times a rejected step is halved before the run stops"},
       {.name = "accepted_increase",
-       .unit = "",
        .field = NumberField<Optimizer>{&Optimizer::accepted_increase, between(0, 1)},
        .meaning = "a shape is accepted if its J exceeds the best J so far by at most this fraction; before "
                   "walls and gaps are repaired also if it is at most the larger J of the last two shapes"},
       {.name = "tolerance",
-       .unit = "",
        .field = OptionalNumberField<Optimizer>{&Optimizer::tolerance, between(0, 1),
                                                "2e-4; with method = \"descent\" 1e-5"},
        .meaning = "the run has converged when J has fallen by less than this fraction in 6 trials, or with "
@@ -253,7 +254,6 @@ std::vector<Key<Optimizer>> feature_keys() {
        .meaning = "minimum radius of internal corners, those of the holes, for milling cutters and low "
                   "stress; gaps are at least twice as wide; 0 means no minimum to the end"},
       {.name = "nucleation",
-       .unit = "",
        .field = choice<&Optimizer::nucleation>({"never", "converged"}),
        .meaning = "when new holes are created. converged: when the search has converged, small holes are "
                   "created where they lower J most according to the topological derivative; if J has not "

@@ -9,7 +9,6 @@ const Section<Output>& output_section() {
       .in = [](Case& c) -> Output& { return c.output; },
       .keys = {
           {.name = "folder",
-           .unit = "",
            .field = TextField<Output>{&Output::folder, "runs/ and the name of the case file",
                                       TextRule::path_below},
            .meaning = "folder of the run, below the current one; the option --output accepts any folder"},
@@ -57,7 +56,6 @@ const SectionArray<Expectation>& expectation_sections() {
       .in = [](Case& c) -> std::vector<Expectation>& { return c.expectations; },
       .example = example_expectation(),
       .keys = {{.name = "quantity",
-                .unit = "",
                 .field = QuantityField<Expectation>{&Expectation::quantity},
                 .meaning = "a column of history.csv",
                 .presence = Presence::required},
@@ -67,16 +65,13 @@ const SectionArray<Expectation>& expectation_sections() {
                 .meaning = "expected value, in the unit of history.csv; stresses in Pa",
                 .presence = Presence::required},
                {.name = "margin",
-                .unit = "",
                 .field = NumberField<Expectation>{&Expectation::margin, above(0, 1)},
                 .meaning = "accepted deviation, relative to the value"},
                {.name = "iteration",
-                .unit = "",
                 .field = OptionalIntegerField<Expectation>{&Expectation::iteration, between(0, 1000000),
                                                            "the last shape"},
                 .meaning = "number of the accepted shape; 0 is the initial shape"},
                {.name = "load_case",
-                .unit = "",
                 .field = TextField<Expectation>{&Expectation::load_case, "the first one"},
                 .meaning = "the name of the [[load.case]] to which it applies"}}};
   return sections;

@@ -64,6 +64,9 @@ Constancy constancy_without(Input input) {
 
 std::vector<Need> unmet_needs(const Case& c, const Quantity& quantity) {
   std::vector<Need> needs;
+  const FunctionalFactory& functional = quantity->functional;
+  if (functional && !(c.wheel.dimension == 2 ? functional.in<2>() != nullptr : functional.in<3>() != nullptr))
+    needs.push_back({"wheel.dimension", "it is computed only in the other dimension"});
   for (const Input input : quantity->needs)
     if (!has(c, input)) needs.push_back(need(input));
   return needs;

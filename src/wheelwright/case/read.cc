@@ -554,7 +554,6 @@ std::vector<Diagnostic> load_drawings(Reading& reading, Case& c) {
     in_drawings.push_back({.kind = problem.kind,
                            .file = std::move(problem.file),
                            .line = problem.line,
-                           .column = 0,
                            .key = std::move(problem.key),
                            .value = at.value,
                            .problem = std::move(problem.problem),
@@ -571,8 +570,6 @@ Diagnostic diagnostic(const SyntaxError& error, const std::string& file) {
       .file = file,
       .line = error.line,
       .column = error.column,
-      .key = "",
-      .value = "",
       .problem = without_control_characters(error.problem),
       .remedy = error.remedy.empty()
                     ? "write KEY = VALUE, with words in quotes and numbers without unit, below a line [TABLE]"
@@ -622,8 +619,6 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
                    .file = reading.file,
                    .line = 1,
                    .column = 1,
-                   .key = "",
-                   .value = "",
                    .problem = "the file contains no key",
                    .remedy = "`wheelwright init` writes a case to start from"});
   std::vector<Diagnostic> problems = merged(syntax, reading.problems);
@@ -645,8 +640,6 @@ CaseResult parse_case(std::string_view text, const std::filesystem::path& file,
                    .file = file.string(),
                    .line = 1,
                    .column = 1,
-                   .key = "",
-                   .value = "",
                    .problem = fmt::format("the file is {}, not UTF-8", *encoding),
                    .remedy = "save it as UTF-8"});
   if (const auto exceeded = exceeded_parser_limit(text))
@@ -654,8 +647,6 @@ CaseResult parse_case(std::string_view text, const std::filesystem::path& file,
                    .file = file.string(),
                    .line = exceeded->line,
                    .column = exceeded->column,
-                   .key = "",
-                   .value = "",
                    .problem = exceeded->problem,
                    .remedy = "this is not a case file"});
   return interpret(parse_toml_lines(text), file, quantities);
@@ -668,10 +659,6 @@ CaseResult read_case(const std::filesystem::path& file, const Quantities& quanti
   if (in.bad() || (in.fail() && !in.eof()) || is_folder(file))
     return failed({.kind = Kind::unreadable,
                    .file = file.string(),
-                   .line = 0,
-                   .column = 0,
-                   .key = "",
-                   .value = "",
                    .problem = "cannot be read",
                    .remedy = "check its name and permissions"});
   text.resize(in.gcount());

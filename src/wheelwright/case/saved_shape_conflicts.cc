@@ -7,7 +7,8 @@
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/section_conflicts.h"
-#include "wheelwright/geometry/values_on.h"
+#include "wheelwright/case/shape_symmetry.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 namespace wheelwright {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "wheelwright/cad/drawing/drawing.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/shape_symmetry.h"
-#include "wheelwright/drawing/drawing.h"
 
 namespace wheelwright {
 

@@ -10,7 +10,7 @@ const SectionArray<CircleShape>& circle_shape_sections() {
           "a circle, repeated about the axle; all `[[shape.*]]` are drawn over the ring and its "
           "`[[holes.*]]` in the order in which they are written",
       .in = [](Case& c) -> std::vector<CircleShape>& { return c.shapes.circles; },
-      .example = {.count = 16, .center_radius = 0.27, .radius = 0.03, .phase = {}},
+      .example = {.count = 16, .center_radius = 0.27, .radius = 0.03},
       .keys = {fill_key<CircleShape>(choice<&CircleShape::as>({"material", "hole"})),
                count_key<CircleShape>(), center_radius_key<CircleShape>(),
                length_key(&CircleShape::radius, "radius", "radius of each"),
@@ -24,7 +24,7 @@ const SectionArray<EllipseShape>& ellipse_shape_sections() {
       .name = "ellipse",
       .meaning = "an ellipse, repeated about the axle",
       .in = [](Case& c) -> std::vector<EllipseShape>& { return c.shapes.ellipses; },
-      .example = {.count = 16, .center_radius = 0.27, .length = 0.09, .width = 0.05, .phase = {}},
+      .example = {.count = 16, .center_radius = 0.27, .length = 0.09, .width = 0.05},
       .keys = {fill_key<EllipseShape>(choice<&EllipseShape::as>({"material", "hole"})),
                count_key<EllipseShape>(), center_radius_key<EllipseShape>(),
                length_key(&EllipseShape::length, "length", "one axis, from end to end"),
@@ -39,7 +39,7 @@ const SectionArray<SlotShape>& slot_shape_sections() {
       .name = "slot",
       .meaning = "a straight slot with round ends, repeated about the axle",
       .in = [](Case& c) -> std::vector<SlotShape>& { return c.shapes.slots; },
-      .example = {.count = 16, .center_radius = 0.27, .length = 0.1, .width = 0.04, .phase = {}},
+      .example = {.count = 16, .center_radius = 0.27, .length = 0.1, .width = 0.04},
       .keys = {fill_key<SlotShape>(choice<&SlotShape::as>({"material", "hole"})), count_key<SlotShape>(),
                center_radius_key<SlotShape>(),
                length_key(&SlotShape::length, "length", "over all, from end to end"),
@@ -85,7 +85,7 @@ const SectionArray<AnnulusShape>& annulus_shape_sections() {
       .name = "annulus",
       .meaning = "everything between two radii; as a hole, which it is by default, it makes room for spokes",
       .in = [](Case& c) -> std::vector<AnnulusShape>& { return c.shapes.annuli; },
-      .example = {.inner_radius = {}, .outer_radius = {}},
+      .example = {},
       .keys = {fill_key<AnnulusShape>(choice<&AnnulusShape::as>({"material", "hole"})),
                radius_key(&AnnulusShape::inner_radius, "inner_radius", "the edge of the band at the rim",
                           "where it begins"),
@@ -100,16 +100,10 @@ const SectionArray<SpokeShape>& spoke_shape_sections() {
       .name = "spoke",
       .meaning = "spokes of constant thickness, evenly spaced",
       .in = [](Case& c) -> std::vector<SpokeShape>& { return c.shapes.spokes; },
-      .example = {.count = 16,
-                  .thickness = 0.02,
-                  .fork_radius = {},
-                  .inner_radius = {},
-                  .outer_radius = {},
-                  .phase = {}},
+      .example = {.count = 16, .thickness = 0.02},
       .keys = {
           fill_key<SpokeShape>(choice<&SpokeShape::as>({"material", "hole"})),
           {.name = "kind",
-           .unit = "",
            .field = choice<&SpokeShape::kind>({"straight", "curved", "forked", "pair"}),
            .meaning = "curved: a circular arc; forked: two branches from a stem; pair: a straight spoke and "
                       "its mirror image"},
@@ -138,7 +132,6 @@ namespace {
 template <class Struct>
 Key<Struct> path_key(std::string_view meaning) {
   return {.name = "path",
-          .unit = "",
           .field = TextField<Struct>{&Struct::path, ""},
           .meaning = meaning,
           .presence = Presence::required};
@@ -146,16 +139,13 @@ Key<Struct> path_key(std::string_view meaning) {
 
 template <class Struct>
 Key<Struct> copies_key(std::string_view meaning) {
-  return {.name = "count",
-          .unit = "",
-          .field = IntegerField<Struct>{&Struct::count, between(1, 100000)},
-          .meaning = meaning};
+  return {
+      .name = "count", .field = IntegerField<Struct>{&Struct::count, between(1, 100000)}, .meaning = meaning};
 }
 
 template <class Struct>
 Key<Struct> checksum_key() {
   return {.name = "checksum",
-          .unit = "",
           .field = TextField<Struct>{&Struct::checksum, "any file is taken"},
           .meaning = "CRC-32 of the file; another file is refused. Runs write it into their own case file"};
 }
@@ -168,7 +158,6 @@ const Section<SavedShape>& saved_shape_section() {
       .meaning = "the shape to begin with, if it is that of an earlier run ([saved shapes](shapes.md))",
       .in = [](Case& c) -> SavedShape& { return c.saved_shape; },
       .keys = {{.name = "from",
-                .unit = "",
                 .field = TextField<SavedShape>{&SavedShape::from, "holes and shapes are drawn"},
                 .meaning = "the folder of a run, for its last saved shape, or a file of this kind "
                            "(shape.levelset); relative to the folder of the case file; the grid may differ, "
@@ -191,11 +180,9 @@ const SectionArray<FileShape>& file_shape_sections() {
           fill_key<FileShape>(choice<&FileShape::as>({"material", "hole"})),
           path_key<FileShape>("the file, .svg or .dxf; relative to the folder of the case file"),
           {.name = "unit",
-           .unit = "",
            .field = choice<&FileShape::unit>({"file", "m", "cm", "mm", "in"}),
            .meaning = "unit of the numbers in the drawing; file: the file must say it"},
           {.name = "axle",
-           .unit = "",
            .field = OptionalPointField<FileShape>{&FileShape::axle, between(-1e9, 1e9),
                                                   "the centre of the page of an SVG, the origin of a DXF"},
            .meaning = "[x, y] of the axle in the drawing, in its own unit and axes"},
@@ -217,7 +204,6 @@ const SectionArray<PictureShape>& picture_shape_sections() {
           fill_key<PictureShape>(choice<&PictureShape::as>({"material", "hole"})),
           path_key<PictureShape>("the file, .png; relative to the folder of the case file"),
           {.name = "layout",
-           .unit = "",
            .field = choice<&PictureShape::layout>({"wheel", "sector"}),
            .meaning =
                "wheel: the whole wheel, the axle in the middle; sector: one of `count` equal parts, "
@@ -228,7 +214,6 @@ const SectionArray<PictureShape>& picture_shape_sections() {
                                                       "none, for a sector; required for a wheel"},
            .meaning = "width of the whole picture of a wheel"},
           {.name = "threshold",
-           .unit = "",
            .field = NumberField<PictureShape>{&PictureShape::threshold, between(0.01, 0.99)},
            .meaning = "what is darker is drawn; 0 is white and 1 is black"},
           copies_key<PictureShape>("how often the picture is repeated round the full wheel"),

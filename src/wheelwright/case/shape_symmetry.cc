@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "wheelwright/drawing/parts.h"
+#include "wheelwright/cad/drawing/parts.h"
 
 namespace wheelwright {
 

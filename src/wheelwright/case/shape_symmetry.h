@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/cad/drawing/symmetry.h"
 #include "wheelwright/case/drawn_shapes.h"
-#include "wheelwright/drawing/symmetry.h"
 
 namespace wheelwright {
 

@@ -8,7 +8,6 @@ const Section<Case>& general_section() {
       .meaning = "",
       .in = [](Case& c) -> Case& { return c; },
       .keys = {{.name = "title",
-                .unit = "",
                 .field = TextField<Case>{&Case::title, ""},
                 .meaning = "one line of text, the title of pictures and reports"}}};
   return section;
@@ -21,7 +20,6 @@ const Section<Wheel>& wheel_section() {
       .in = [](Case& c) -> Wheel& { return c.wheel; },
       .keys = {
           {.name = "dimension",
-           .unit = "",
            .field = IntegerField<Wheel>{&Wheel::dimension, between(2, 3)},
            .meaning = "2: the plane of the wheel, constant over its width; 3: the wheel with its width"},
           {.name = "inner_radius",
@@ -37,13 +35,11 @@ const Section<Wheel>& wheel_section() {
            .field = NumberField<Wheel>{&Wheel::width, length},
            .meaning = "w_r: width along the axle"},
           {.name = "sectors",
-           .unit = "",
            .field = IntegerField<Wheel>{&Wheel::sectors, between(1, 10000)},
            .meaning = "N_s: number of equal sectors of the shape; 1 means no cyclic symmetry; in a case with "
                       "drawings or pictures the default is the largest number that fits them and all "
                       "counts"},
           {.name = "side_faces",
-           .unit = "",
            .field = choice<&Wheel::side_faces>({"free", "symmetric"}),
            .meaning = "in 3D; free: no forces act on the side faces; symmetric: they do not move along the "
                       "axle, as in a slice of a much wider wheel, which is plane strain if the shape is "
@@ -61,12 +57,10 @@ const Section<Material>& material_section() {
                 .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
                 .meaning = "E: Young's modulus"},
                {.name = "poissons_ratio",
-                .unit = "",
                 .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
                 .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
                            "if plane = \"strain\""},
                {.name = "plane",
-                .unit = "",
                 .field = choice<&Material::plane>({"strain", "stress"}),
                 .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
                            "axle, for wheels cut from sheet"},

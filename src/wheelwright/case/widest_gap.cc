@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "wheelwright/cad/drawing/composition.h"
 #include "wheelwright/case/drawn_shapes.h"
-#include "wheelwright/drawing/composition.h"
 
 namespace wheelwright {
 

@@ -6,7 +6,7 @@
 
 #include "wheelwright/files/block_file.h"
 #include "wheelwright/files/byte_stream.h"
-#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/shape/geometry/level_set.h"
 
 namespace wheelwright {
 

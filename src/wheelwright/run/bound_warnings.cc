@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/predicted_deformation.h"
 #include "wheelwright/run/study.h"

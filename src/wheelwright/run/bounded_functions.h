@@ -1,8 +1,8 @@
 #pragma once
 
 #include "wheelwright/case/case.h"
-#include "wheelwright/functionals/shape_function.h"
-#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/quantities/functionals/shape_function.h"
 
 namespace wheelwright {
 

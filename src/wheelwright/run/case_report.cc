@@ -12,7 +12,8 @@
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/rolling/contact_failure.h"
+#include "wheelwright/mechanics/rolling/contact_failure.h"
+#include "wheelwright/run/problem_size.h"
 
 namespace wheelwright {
 
@@ -51,11 +52,12 @@ std::string contact_report(const Case& c) {
 }
 
 std::string time_report(const Case& c) {
-  return line("time", fmt::format("about {:.2g} s for one shape on one core", estimated_seconds_in_3d(c))) +
+  return line("time", fmt::format("about {:.2g} s for one shape on one core",
+                                  estimated_seconds_in_3d(problem_size(c)))) +
          line("with grooves", fmt::format("at most about {:.0f} MB and {:.2g} s, once edges cross all faces "
                                           "between sectors",
-                                          std::ceil(estimated_memory_of_grooves(c) / 1e6),
-                                          estimated_seconds_of_grooves_in_3d(c)));
+                                          std::ceil(estimated_memory(problem_size_of_grooves(c)) / 1e6),
+                                          estimated_seconds_in_3d(problem_size_of_grooves(c))));
 }
 
 std::string drawing_report(const Case& c) {
@@ -72,7 +74,7 @@ std::string size_report(const Case& c) {
                                     c.grid.angular_cells / c.wheel.sectors, along_axle)) +
          line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
                                       dof_bound(c) / c.wheel.sectors)) +
-         line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6))) +
+         line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(problem_size(c)) / 1e6))) +
          (c.wheel.dimension == 3 ? time_report(c) : "");
 }
 

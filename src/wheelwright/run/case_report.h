@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/cad/clearance.h"
+#include "wheelwright/cad/outline/clearance.h"
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {

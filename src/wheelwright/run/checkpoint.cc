@@ -420,11 +420,9 @@ Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view by
   return checkpoint;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                            \
-  template std::string checkpoint_file(const Checkpoint<dim>&); \
-  template Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file<dim>(std::string_view);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(checkpoint_file<2>) checkpoint_file<2>;
+template decltype(parse_checkpoint_file<2>) parse_checkpoint_file<2>;
+template decltype(checkpoint_file<3>) checkpoint_file<3>;
+template decltype(parse_checkpoint_file<3>) parse_checkpoint_file<3>;
 
 }  // namespace wheelwright

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "wheelwright/files/block_file.h"
-#include "wheelwright/nucleation/nucleation.h"
-#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/optimization/nucleation/nucleation.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
 #include "wheelwright/run/history.h"
 
 namespace wheelwright {

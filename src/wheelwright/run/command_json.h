@@ -3,19 +3,20 @@
 #include <string>
 #include <string_view>
 
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/commands.h"
 
 namespace wheelwright {
 
-/// A command as one line of JSON, which reads back to the same command. For a Custom command only its name.
+/// A command as one line of JSON: an object whose "do" is the command's name, and each of its fields a key.
 std::string command_json(const Command& command);
 
-/// The members of a NewLoad that are its load, as an object.
+/// The load of a NewLoad as an object.
 std::string load_json(const Load& load);
 
-/// A command from JSON, or what is wrong with the text. Numbers must be finite, a path has at most
-/// max_path_points points, and no other keys are accepted. A run may still refuse the command.
-Expected<Command, Refusal> parse_command(std::string_view json);
+/// A command of one of these kinds from JSON, or what is wrong with the text. Numbers must be finite, a path
+/// has at most max_path_points points, and no other keys are accepted. A run may still refuse the command.
+Expected<Command, Refusal> parse_command(std::string_view json,
+                                         const CommandKinds& kinds = commands_of_every_run());
 
 inline constexpr std::size_t max_path_points = 500;
 

@@ -21,14 +21,14 @@ std::optional<int> count_in(const Json& json, const char* key) {
   return json[key].get<int>();
 }
 
-Expected<LoggedCommand, Refusal> parse_line(const std::string& line) {
+Expected<LoggedCommand, Refusal> parse_line(const std::string& line, const CommandKinds& kinds) {
   constexpr int levels = 5;
   if (is_nested_deeper(line, levels)) return Refusal{"no logged command"};
   const Json json = Json::parse(line, nullptr, false);
   if (!json.is_object() || !json.contains("command")) return Refusal{"no logged command"};
   const auto trials = count_in(json, "trials"), waits = count_in(json, "waits");
   if (!trials || !waits) return Refusal{"its moment is missing"};
-  const auto command = parse_command(json["command"].dump());
+  const auto command = parse_command(json["command"].dump(), kinds);
   if (!command) return command.failure();
   return LoggedCommand{{*trials, *waits}, *command};
 }
@@ -40,14 +40,15 @@ std::string log_line(const LoggedCommand& logged) {
                      logged.moment.waits, command_json(logged.command));
 }
 
-Expected<std::vector<LoggedCommand>, Refusal> parse_command_log(std::string_view text) {
+Expected<std::vector<LoggedCommand>, Refusal> parse_command_log(std::string_view text,
+                                                                const CommandKinds& kinds) {
   std::vector<LoggedCommand> log;
   int number = 0;
   while (true) {
     const std::size_t end = text.find('\n');
     if (end == std::string_view::npos) return log;
     ++number;
-    auto logged = parse_line(std::string(text.substr(0, end)));
+    auto logged = parse_line(std::string(text.substr(0, end)), kinds);
     if (!logged) return Refusal{fmt::format("line {}: {}", number, logged.failure().reason)};
     if (!log.empty() && logged->moment < log.back().moment)
       return Refusal{fmt::format("line {}: is earlier than the line above it", number)};
@@ -84,8 +85,9 @@ CommandQueue::Source CommandReplay<dim>::source() const {
   return [progress = progress_]() -> std::optional<Command> {
     auto& [log, given, moments, is_waiting, is_stopped] = *progress;
     if (given < log.size() && log[given].moment <= moments.now()) {
-      is_stopped = is_stopped || std::holds_alternative<Stop>(log[given].command);
-      return log[given++].command;
+      const Command next = log[given++].command;
+      is_stopped = is_stopped || next.is<Stop>();
+      return next;
     }
     if (given < log.size() || !is_waiting || is_stopped) return {};
     is_stopped = true;

@@ -46,7 +46,8 @@ class MomentCounter {
 std::string log_line(const LoggedCommand& logged);
 
 /// The commands of a log, or what is wrong with it. An incomplete last line, as after a kill, is ignored.
-Expected<std::vector<LoggedCommand>, Refusal> parse_command_log(std::string_view text);
+Expected<std::vector<LoggedCommand>, Refusal> parse_command_log(
+    std::string_view text, const CommandKinds& kinds = commands_of_every_run());
 
 /// Writes the log: each executed command is flushed before the next one.
 template <int dim>

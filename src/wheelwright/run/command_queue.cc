@@ -50,8 +50,8 @@ Command CommandQueue::wait() {
 int CommandQueue::waiting_stops() {
   const std::scoped_lock lock(mutex_);
   if (Clock::now() >= ask_again_) ask_sources();
-  return static_cast<int>(std::ranges::count_if(
-      commands_, [](const Command& command) { return std::holds_alternative<Stop>(command); }));
+  return static_cast<int>(
+      std::ranges::count_if(commands_, [](const Command& command) { return command.is<Stop>(); }));
 }
 
 }  // namespace wheelwright

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/commands.h"
 
 namespace wheelwright {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/optimize/descent.h"
-#include "wheelwright/report/sector_svg.h"
+#include "wheelwright/optimization/optimizer/descent.h"
+#include "wheelwright/output/report/sector_svg.h"
 #include "wheelwright/run/run_title.h"
 
 namespace wheelwright {

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "wheelwright/cad/curves/affine.h"
 #include "wheelwright/case/case.h"
-#include "wheelwright/curves/affine.h"
 
 namespace wheelwright {
 

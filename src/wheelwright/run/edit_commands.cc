@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "wheelwright/drawing/parts.h"
-#include "wheelwright/run/command.h"
+#include "wheelwright/cad/drawing/parts.h"
+#include "wheelwright/run/commands.h"
 #include "wheelwright/run/edit_bounds.h"
 
 namespace wheelwright {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "wheelwright/case/objective_weights.h"
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/run/bounded_functions.h"
 
 namespace wheelwright {
@@ -186,16 +186,11 @@ bool need_a_solution(const std::vector<Expectation>& expectations) {
   return std::ranges::any_of(expectations, needs_a_solution);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
-  template class ExpectationWatch<dim>;                                                                      \
-  template std::vector<FoundQuantity> found_quantities(                                                      \
-      const std::vector<Expectation>&, const StateSolver<dim>&, const LoadCases<dim>&,                       \
-      const OptimizationState<dim>&, const std::shared_ptr<const State<dim>>&);                              \
-  template std::vector<Finding> findings(const std::vector<Expectation>&, const std::vector<FoundQuantity>&, \
-                                         const StateSolver<dim>&, const LoadCases<dim>&,                     \
-                                         const OptimizationState<dim>&, const SolvedStates<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template class ExpectationWatch<2>;
+template decltype(found_quantities<2>) found_quantities<2>;
+template decltype(findings<2>) findings<2>;
+template class ExpectationWatch<3>;
+template decltype(found_quantities<3>) found_quantities<3>;
+template decltype(findings<3>) findings<3>;
 
 }  // namespace wheelwright

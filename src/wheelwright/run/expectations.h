@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/run/observer.h"
 
 namespace wheelwright {

@@ -7,12 +7,12 @@
 
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/geometry/section.h"
-#include "wheelwright/report/svg.h"
+#include "wheelwright/output/report/svg.h"
 #include "wheelwright/run/own_drawings.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 
@@ -37,11 +37,11 @@ std::string volume_hint(const InitialShape<dim>& initial, const OptimizationStat
       to, from, volume_fraction(grid, last.measure));
 }
 
-template std::string volume_hint(const InitialShape<2>&, const OptimizationState<2>&);
-template std::string volume_hint(const InitialShape<3>&, const OptimizationState<3>&);
+template decltype(volume_hint<2>) volume_hint<2>;
+template decltype(volume_hint<3>) volume_hint<3>;
 
-template std::string failure_headline(const OptimizationState<2>*, std::span<const Trial<2>>);
-template std::string failure_headline(const OptimizationState<3>*, std::span<const Trial<3>>);
+template decltype(failure_headline<2>) failure_headline<2>;
+template decltype(failure_headline<3>) failure_headline<3>;
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/dimension.h"
-#include "wheelwright/geometry/section.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "wheelwright/base/expected.h"
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline/outline.h"
 #include "wheelwright/case/case.h"
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/output/report/described_wheel.h"
 
 namespace wheelwright {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "wheelwright/evolution/protected_bands.h"
+#include "wheelwright/shape/evolution/protected_bands.h"
 
 namespace wheelwright {
 namespace {
@@ -72,7 +72,7 @@ std::optional<Failure> filled_holes(const LevelSet<dim>& initial, const Evolutio
                              asked.wall * mm, asked.gap * mm)};
 }
 
-template std::optional<Failure> filled_holes(const LevelSet<2>&, const EvolutionOptions&);
-template std::optional<Failure> filled_holes(const LevelSet<3>&, const EvolutionOptions&);
+template decltype(filled_holes<2>) filled_holes<2>;
+template decltype(filled_holes<3>) filled_holes<3>;
 
 }  // namespace wheelwright

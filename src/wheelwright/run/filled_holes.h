@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "wheelwright/base/expected.h"
-#include "wheelwright/evolution/evolver.h"
-#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/shape/evolution/evolver.h"
+#include "wheelwright/shape/geometry/level_set.h"
 
 namespace wheelwright {
 

@@ -1,8 +1,8 @@
 #include "wheelwright/run/final_results.h"
 
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/run/given_wheel.h"
 #include "wheelwright/run/summarized_run.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {
@@ -78,13 +78,9 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
           .is_interrupted = solutions.is_interrupted() || is_interruption(objective)};
 }
 
-template FinalResults<2> final_results(const Study<2>&, const InitialShape<2>&, const OptimizationState<2>&,
-                                       const SolvedShapes<2>&, const Interrupt&);
-template FinalResults<3> final_results(const Study<3>&, const InitialShape<3>&, const OptimizationState<3>&,
-                                       const SolvedShapes<3>&, const Interrupt&);
-template DescribedWheel<2> described(const StateSolver<2>&, const LoadCases<2>&, const LevelSet<2>&, double,
-                                     const SolvedStates<2>&);
-template DescribedWheel<3> described(const StateSolver<3>&, const LoadCases<3>&, const LevelSet<3>&, double,
-                                     const SolvedStates<3>&);
+template decltype(final_results<2>) final_results<2>;
+template decltype(final_results<3>) final_results<3>;
+template decltype(described<2>) described<2>;
+template decltype(described<3>) described<3>;
 
 }  // namespace wheelwright

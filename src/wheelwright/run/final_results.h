@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "wheelwright/base/interrupt.h"
-#include "wheelwright/report/run_summary.h"
+#include "wheelwright/output/report/run_summary.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/study.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "wheelwright/cut/measure.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {
@@ -54,13 +54,11 @@ std::string changed_start(const Study<dim>& study, const InitialShape<dim>& star
          changes + ".";
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                        \
-  template bool begins_as_given(const Study<dim>&, const InitialShape<dim>&);               \
-  template Expected<double> objective_as_given(const Study<dim>&, const InitialShape<dim>&, \
-                                               const Interrupt&);                           \
-  template std::string changed_start(const Study<dim>&, const InitialShape<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(begins_as_given<2>) begins_as_given<2>;
+template decltype(objective_as_given<2>) objective_as_given<2>;
+template decltype(changed_start<2>) changed_start<2>;
+template decltype(begins_as_given<3>) begins_as_given<3>;
+template decltype(objective_as_given<3>) objective_as_given<3>;
+template decltype(changed_start<3>) changed_start<3>;
 
 }  // namespace wheelwright

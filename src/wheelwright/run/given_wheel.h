@@ -1,7 +1,7 @@
 #pragma once
 
 #include "wheelwright/base/interrupt.h"
-#include "wheelwright/report/run_summary.h"
+#include "wheelwright/output/report/run_summary.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/study.h"
 

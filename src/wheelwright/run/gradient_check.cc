@@ -112,11 +112,11 @@ std::set<std::tuple<int, int, int, bool>> contact_status(const Evaluated<dim>& e
 }
 
 template <int dim>
-using EvaluateShape = std::function<Expected<Evaluated<dim>>(const LevelSet<dim>&)>;
+using EvaluateLevelSet = std::function<Expected<Evaluated<dim>>(const LevelSet<dim>&)>;
 
 /// The largest tried step within which no point changes its contact status, or else the smallest one.
 template <int dim>
-Expected<double> step_of_one_status(const EvaluateShape<dim>& evaluate, const Evaluated<dim>& start,
+Expected<double> step_of_one_status(const EvaluateLevelSet<dim>& evaluate, const Evaluated<dim>& start,
                                     const LevelSet<dim>& psi, const std::vector<double>& direction,
                                     double step) {
   constexpr int most_reductions = 3;
@@ -185,7 +185,7 @@ std::vector<double> test_direction(const LevelSet<dim>& psi, int number, double 
 template <int dim>
 Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>& study, const LevelSet<dim>& shape,
                                                      const Interrupt& interrupt) {
-  const EvaluateShape<dim> evaluate = [&](const LevelSet<dim>& psi) {
+  const EvaluateLevelSet<dim> evaluate = [&](const LevelSet<dim>& psi) {
     return wheelwright::evaluate<dim>(*study.solver, study.functions, psi, nullptr, interrupt,
                                       study.load_cases);
   };
@@ -232,12 +232,9 @@ Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>& study, co
   return best;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                     \
-  template std::vector<double> test_direction(const LevelSet<dim>&, int, double);                        \
-  template Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>&, const LevelSet<dim>&, \
-                                                                const Interrupt&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(test_direction<2>) test_direction<2>;
+template decltype(check_gradients<2>) check_gradients<2>;
+template decltype(test_direction<3>) test_direction<3>;
+template decltype(check_gradients<3>) check_gradients<3>;
 
 }  // namespace wheelwright

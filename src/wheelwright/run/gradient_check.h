@@ -1,7 +1,7 @@
 #pragma once
 
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
 #include "wheelwright/run/study.h"
-#include "wheelwright/sensitivity/taylor_test.h"
 
 namespace wheelwright {
 

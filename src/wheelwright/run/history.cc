@@ -14,7 +14,7 @@
 #include "wheelwright/files/csv.h"
 #include "wheelwright/files/output_error.h"
 #include "wheelwright/files/written_files.h"
-#include "wheelwright/functionals/quantity.h"
+#include "wheelwright/quantities/functionals/quantity.h"
 
 namespace wheelwright {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/optimize/constraints.h"
-#include "wheelwright/sensitivity/evaluation.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/optimization/sensitivity/evaluation.h"
 
 namespace wheelwright {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "wheelwright/analysis/rolling_measures.h"
-#include "wheelwright/analysis/shape_summary.h"
+#include "wheelwright/quantities/analysis/rolling_measures.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/bounded_functions.h"
 
 namespace wheelwright {

@@ -79,7 +79,7 @@ void enter(Session<dim>& session, Journal<dim>& journal, Stage<dim> stage, const
 
 template class Journal<2>;
 template class Journal<3>;
-template void enter(Session<2>&, Journal<2>&, Stage<2>, const Event<2>&);
-template void enter(Session<3>&, Journal<3>&, Stage<3>, const Event<3>&);
+template decltype(enter<2>) enter<2>;
+template decltype(enter<3>) enter<3>;
 
 }  // namespace wheelwright

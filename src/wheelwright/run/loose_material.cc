@@ -4,9 +4,9 @@
 
 #include <limits>
 
-#include "wheelwright/evolution/islands.h"
-#include "wheelwright/geometry/place.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/evolution/islands.h"
+#include "wheelwright/shape/geometry/place.h"
 
 namespace wheelwright {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "wheelwright/evolution/volume.h"
+#include "wheelwright/shape/evolution/volume.h"
 
 namespace wheelwright {
 namespace {

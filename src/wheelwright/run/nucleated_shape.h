@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/nucleation/nucleation.h"
+#include "wheelwright/optimization/nucleation/nucleation.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

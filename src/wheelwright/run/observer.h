@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "wheelwright/report/run_summary.h"
-#include "wheelwright/report/solution_fields.h"
+#include "wheelwright/output/report/run_summary.h"
+#include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/command.h"
 #include "wheelwright/run/study.h"

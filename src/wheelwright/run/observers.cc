@@ -31,9 +31,7 @@ Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints
   return observers;
 }
 
-template Observers<2> make_observers(const Case&, const CheckpointFolder&,
-                                     const std::optional<Checkpoint<2>>&);
-template Observers<3> make_observers(const Case&, const CheckpointFolder&,
-                                     const std::optional<Checkpoint<3>>&);
+template decltype(make_observers<2>) make_observers<2>;
+template decltype(make_observers<3>) make_observers<3>;
 
 }  // namespace wheelwright

@@ -1,8 +1,8 @@
 #include "wheelwright/run/on_other_grid.h"
 
-#include "wheelwright/evolution/regrid.h"
-#include "wheelwright/geometry/components.h"
-#include "wheelwright/geometry/values_on.h"
+#include "wheelwright/shape/evolution/regrid.h"
+#include "wheelwright/shape/geometry/components.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 namespace wheelwright {
 namespace {
@@ -31,9 +31,7 @@ Expected<OnOtherGrid<dim>> on_other_grid(const OptimizationState<dim>& state, co
   return moved;
 }
 
-template Expected<OnOtherGrid<2>> on_other_grid(const OptimizationState<2>&, const Lattice<2>&,
-                                                const Evolver<2>&);
-template Expected<OnOtherGrid<3>> on_other_grid(const OptimizationState<3>&, const Lattice<3>&,
-                                                const Evolver<3>&);
+template decltype(on_other_grid<2>) on_other_grid<2>;
+template decltype(on_other_grid<3>) on_other_grid<3>;
 
 }  // namespace wheelwright

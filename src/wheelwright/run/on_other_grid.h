@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "wheelwright/evolution/evolver.h"
-#include "wheelwright/geometry/topology.h"
-#include "wheelwright/optimize/optimization_state.h"
+#include "wheelwright/optimization/optimizer/optimization_state.h"
+#include "wheelwright/shape/evolution/evolver.h"
+#include "wheelwright/shape/geometry/topology.h"
 
 namespace wheelwright {
 

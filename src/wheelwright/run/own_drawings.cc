@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/cad/drawing/drawing.h"
+#include "wheelwright/cad/drawing/png_file.h"
 #include "wheelwright/case/load_saved_shape.h"
-#include "wheelwright/drawing/drawing.h"
-#include "wheelwright/drawing/png_file.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
 

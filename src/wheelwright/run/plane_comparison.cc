@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

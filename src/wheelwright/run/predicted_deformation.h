@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/base/interrupt.h"
 #include "wheelwright/case/case.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
 
 namespace wheelwright {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/report/pressure_plot.h"
-#include "wheelwright/report/solution_fields.h"
+#include "wheelwright/output/report/pressure_plot.h"
+#include "wheelwright/output/report/solution_fields.h"
 
 namespace wheelwright {
 namespace {

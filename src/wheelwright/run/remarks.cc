@@ -222,11 +222,9 @@ std::vector<Remark> remarks(const Case& c, const DescribedWheel<dim>& before,
   return result;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                       \
-  template JudgedWheel judged(const DescribedWheel<dim>&); \
-  template std::vector<Remark> remarks(const Case&, const DescribedWheel<dim>&, const DescribedWheel<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(judged<2>) judged<2>;
+template decltype(remarks<2>) remarks<2>;
+template decltype(judged<3>) judged<3>;
+template decltype(remarks<3>) remarks<3>;
 
 }  // namespace wheelwright

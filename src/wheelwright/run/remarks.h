@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "wheelwright/case/case.h"
-#include "wheelwright/report/described_wheel.h"
-#include "wheelwright/report/remark.h"
+#include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/output/report/remark.h"
 
 namespace wheelwright {
 

@@ -8,8 +8,8 @@
 
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/evolution/regrid.h"
 #include "wheelwright/files/level_set_file.h"
+#include "wheelwright/shape/evolution/regrid.h"
 
 namespace wheelwright {
 namespace {
@@ -79,13 +79,9 @@ Expected<LevelSet<dim>, Refusal> shape_of_file(const std::filesystem::path& file
   return evolver.keep_bands(regrid(*shape, lattice));
 }
 
-template Expected<LevelSet<2>, Refusal> drawn_over(const LevelSet<2>&, std::span<const Stroke>,
-                                                   const Evolver<2>&, double);
-template Expected<LevelSet<3>, Refusal> drawn_over(const LevelSet<3>&, std::span<const Stroke>,
-                                                   const Evolver<3>&, double);
-template Expected<LevelSet<2>, Refusal> shape_of_file(const std::filesystem::path&, const Lattice<2>&,
-                                                      const Evolver<2>&);
-template Expected<LevelSet<3>, Refusal> shape_of_file(const std::filesystem::path&, const Lattice<3>&,
-                                                      const Evolver<3>&);
+template decltype(drawn_over<2>) drawn_over<2>;
+template decltype(drawn_over<3>) drawn_over<3>;
+template decltype(shape_of_file<2>) shape_of_file<2>;
+template decltype(shape_of_file<3>) shape_of_file<3>;
 
 }  // namespace wheelwright

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <span>
 
-#include "wheelwright/evolution/evolver.h"
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/run_control.h"
+#include "wheelwright/shape/evolution/evolver.h"
 
 namespace wheelwright {
 

@@ -7,8 +7,8 @@
 
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/output_error.h"
-#include "wheelwright/geometry/section.h"
 #include "wheelwright/run/run_report.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 namespace {

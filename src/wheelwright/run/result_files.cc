@@ -6,15 +6,15 @@
 #include <stdexcept>
 
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/report/shape_boundary.h"
-#include "wheelwright/report/solid_mesh.h"
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/report/surface_vtp.h"
-#include "wheelwright/report/svg.h"
-#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/output/report/shape_boundary.h"
+#include "wheelwright/output/report/solid_mesh.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/surface_vtp.h"
+#include "wheelwright/output/report/svg.h"
+#include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/run/run_title.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

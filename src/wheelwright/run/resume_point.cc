@@ -87,7 +87,7 @@ ResumePoint<dim> resume_point(const fs::path& folder, const Case& c) {
   return point;
 }
 
-template ResumePoint<2> resume_point(const fs::path&, const Case&);
-template ResumePoint<3> resume_point(const fs::path&, const Case&);
+template decltype(resume_point<2>) resume_point<2>;
+template decltype(resume_point<3>) resume_point<3>;
 
 }  // namespace wheelwright

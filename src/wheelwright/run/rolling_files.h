@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/report/tread_contact.h"
-#include "wheelwright/report/vtu.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/tread_contact.h"
+#include "wheelwright/output/report/vtu.h"
 
 namespace wheelwright {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "wheelwright/cad/fit_outline.h"
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline/fit_outline.h"
+#include "wheelwright/cad/outline/outline.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/run/study.h"
 

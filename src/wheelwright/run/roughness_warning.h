@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/cad/roughness.h"
+#include "wheelwright/cad/outline/roughness.h"
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {

@@ -72,9 +72,9 @@ RunResult<dim> end_without_shape(const Session<dim>& session, Journal<dim>& jour
   return result(session, journal, reason);
 }
 
-template RunResult<2> end_run(const Session<2>&, const Journal<2>&, StopReason, const Interrupt&);
-template RunResult<3> end_run(const Session<3>&, const Journal<3>&, StopReason, const Interrupt&);
-template RunResult<2> end_without_shape(const Session<2>&, Journal<2>&, const Failure&);
-template RunResult<3> end_without_shape(const Session<3>&, Journal<3>&, const Failure&);
+template decltype(end_run<2>) end_run<2>;
+template decltype(end_run<3>) end_run<3>;
+template decltype(end_without_shape<2>) end_without_shape<2>;
+template decltype(end_without_shape<3>) end_without_shape<3>;
 
 }  // namespace wheelwright

@@ -13,7 +13,6 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/files/csv.h"
-#include "wheelwright/geometry/section.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/failure_report.h"
 #include "wheelwright/run/feature_warnings.h"
@@ -23,6 +22,7 @@
 #include "wheelwright/run/run_title.h"
 #include "wheelwright/run/stop_text.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 namespace {
@@ -238,20 +238,10 @@ ReportRun<dim> report_of_folder(const fs::path& folder, const Case& c) {
                      .is_running = true,
                      .program = program_text(),
                      .case_text = content(folder / "case.toml"),
-                     .seconds = 0,
                      .load = load_text(rolling_model<dim>(c)),
                      .objective = shown_unit(c.objective.minimize, c.wheel),
                      .grid = polar_grid<dim>(c),
-                     .trials = 0,
-                     .rejected = {},
-                     .events = {},
-                     .history = {},
-                     .outlines = read_outlines(folder),
-                     .flags = {},
-                     .limits = {},
-                     .summary = {},
-                     .wheel = {},
-                     .contact_points = {}};
+                     .outlines = read_outlines(folder)};
   read_history(folder / history_file, run);
   run.seconds = last_elapsed(run);
   std::erase_if(run.history, [](const HistoryCurve& curve) { return curve.name.ends_with("[s]"); });
@@ -290,13 +280,11 @@ ReportRun<dim> report_without_results(const fs::path& folder, const Case& c, Sto
   return run;
 }
 
-template ReportRun<2> report_without_results(const fs::path&, const Case&, StopReason);
-template ReportRun<3> report_without_results(const fs::path&, const Case&, StopReason);
-template ReportRun<2> report_of_folder(const fs::path&, const Case&);
-template ReportRun<3> report_of_folder(const fs::path&, const Case&);
-template ReportRun<2> report_of_results(const fs::path&, const Case&, const RunSummary<2>&,
-                                        const SolvedShape<2>&, ShownWheel<2>, std::optional<StopReason>);
-template ReportRun<3> report_of_results(const fs::path&, const Case&, const RunSummary<3>&,
-                                        const SolvedShape<3>&, ShownWheel<3>, std::optional<StopReason>);
+template decltype(report_without_results<2>) report_without_results<2>;
+template decltype(report_without_results<3>) report_without_results<3>;
+template decltype(report_of_folder<2>) report_of_folder<2>;
+template decltype(report_of_folder<3>) report_of_folder<3>;
+template decltype(report_of_results<2>) report_of_results<2>;
+template decltype(report_of_results<3>) report_of_results<3>;
 
 }  // namespace wheelwright

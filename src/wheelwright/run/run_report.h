@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "wheelwright/case/case.h"
-#include "wheelwright/optimize/optimizer.h"
-#include "wheelwright/page/report_run.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
+#include "wheelwright/output/page/report_run.h"
 #include "wheelwright/run/shown_wheel.h"
 
 namespace wheelwright {

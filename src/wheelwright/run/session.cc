@@ -1,8 +1,8 @@
 #include "wheelwright/run/session.h"
 
-#include "wheelwright/evolution/regrid.h"
 #include "wheelwright/run/on_other_grid.h"
 #include "wheelwright/run/replacements.h"
+#include "wheelwright/shape/evolution/regrid.h"
 
 namespace wheelwright {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/nucleation/nucleation.h"
+#include "wheelwright/optimization/nucleation/nucleation.h"
 #include "wheelwright/run/checkpoint.h"
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/run_control.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/run/case_file.h"
 #include "wheelwright/run/replacements.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 
@@ -22,8 +22,7 @@ bool SessionControl<dim>::obey() {
 
 template <int dim>
 void SessionControl<dim>::execute(const Command& command) {
-  const CommandResult executed = std::visit(
-      [this](const auto& c) -> CommandResult { return c.execute(static_cast<RunControl&>(*this)); }, command);
+  const CommandResult executed = command.execute(*this);
   if (executed)
     journal_.notify(CommandDone{command, *executed, true});
   else

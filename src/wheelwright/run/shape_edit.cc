@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "wheelwright/drawing/composed_level_set.h"
-#include "wheelwright/geometry/contour.h"
+#include "wheelwright/cad/drawing/composed_level_set.h"
+#include "wheelwright/shape/geometry/contour.h"
 
 namespace wheelwright {
 namespace {
@@ -77,7 +77,7 @@ Point centroid(std::span<const Point> corners) {
   return {moment[0] / area, moment[1] / area};
 }
 
-template LevelSet<2> with_stroke(const LevelSet<2>&, const Stroke&);
-template LevelSet<3> with_stroke(const LevelSet<3>&, const Stroke&);
+template decltype(with_stroke<2>) with_stroke<2>;
+template decltype(with_stroke<3>) with_stroke<3>;
 
 }  // namespace wheelwright

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "wheelwright/base/expected.h"
-#include "wheelwright/drawing/composition.h"
-#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/cad/drawing/composition.h"
+#include "wheelwright/shape/geometry/level_set.h"
 
 namespace wheelwright {
 

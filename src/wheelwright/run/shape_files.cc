@@ -4,8 +4,8 @@
 
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/run/run_title.h"
 
 namespace wheelwright {

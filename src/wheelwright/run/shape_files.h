@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "wheelwright/report/vtu.h"
+#include "wheelwright/output/report/vtu.h"
 #include "wheelwright/run/observer.h"
 
 namespace wheelwright {

@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "wheelwright/report/shape_boundary.h"
-#include "wheelwright/report/surface_vtp.h"
-#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/output/report/shape_boundary.h"
+#include "wheelwright/output/report/surface_vtp.h"
+#include "wheelwright/output/report/wheel_pictures.h"
 
 namespace wheelwright {
 namespace {
@@ -81,8 +81,8 @@ std::string loaded_wheel(const SolvedShape<dim>& solved, int position) {
   return loaded_json(solved, position_fields(*solved.solver, *solved.solution, position));
 }
 
-template ShownWheel<2> shown_wheel(const SolvedShape<2>&);
-template ShownWheel<3> shown_wheel(const SolvedShape<3>&);
+template decltype(shown_wheel<2>) shown_wheel<2>;
+template decltype(shown_wheel<3>) shown_wheel<3>;
 template std::string loaded_wheel(const SolvedShape<2>&, int);
 template std::string loaded_wheel(const SolvedShape<3>&, int);
 

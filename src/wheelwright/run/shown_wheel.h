@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/page/report_run.h"
-#include "wheelwright/report/field_points.h"
+#include "wheelwright/output/page/report_run.h"
+#include "wheelwright/output/report/field_points.h"
 
 namespace wheelwright {
 

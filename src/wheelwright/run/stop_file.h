@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/commands.h"
 
 namespace wheelwright {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
 
 namespace wheelwright {
 

@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <numeric>
 
-#include "wheelwright/analysis/deformation_size.h"
+#include "wheelwright/cad/drawing/composed_level_set.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/drawing/composed_level_set.h"
-#include "wheelwright/evolution/regrid.h"
-#include "wheelwright/evolution/volume.h"
-#include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/geometry/components.h"
-#include "wheelwright/geometry/section.h"
-#include "wheelwright/geometry/values_on.h"
-#include "wheelwright/rolling/half_width_solver.h"
+#include "wheelwright/mechanics/rolling/half_width_solver.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/quantities/functionals/mean_contact_stress.h"
 #include "wheelwright/run/bounded_functions.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/regrid.h"
+#include "wheelwright/shape/evolution/volume.h"
+#include "wheelwright/shape/geometry/components.h"
+#include "wheelwright/shape/geometry/section.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 namespace wheelwright {
 namespace {
@@ -124,7 +124,17 @@ Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>
     term->weight = weights.*weight;
     terms.push_back(*std::move(term));
   }
-  return in_load_cases(c, std::move(terms));
+  WeightedSum<dim> of_shape;  // the same under every load
+  for (const auto& [quantity, weight] : c.objective.terms) {
+    if (!(weight > 0)) continue;
+    auto term = functional_of(quantity, Over::positions, quantity_context(c, solver));
+    if (!term) return term.failure();
+    term->weight *= weight;
+    (quantity->of == Positions::none ? of_shape : terms).push_back(*std::move(term));
+  }
+  terms = in_load_cases(c, std::move(terms));
+  terms.insert(terms.end(), of_shape.begin(), of_shape.end());
+  return terms;
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/dimension.h"
-#include "wheelwright/geometry/topology.h"
-#include "wheelwright/optimize/optimizer.h"
-#include "wheelwright/sensitivity/evaluate.h"
+#include "wheelwright/optimization/optimizer/optimizer.h"
+#include "wheelwright/optimization/sensitivity/evaluate.h"
+#include "wheelwright/shape/geometry/topology.h"
 
 namespace wheelwright {
 

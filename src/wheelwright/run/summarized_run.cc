@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/given_wheel.h"
 #include "wheelwright/run/remarks.h"
@@ -48,9 +48,7 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>&
           .changed_start = changed_start(study, start)};
 }
 
-template RunSummary<2> summarized_run(const Study<2>&, const InitialShape<2>&, const Expected<double>&,
-                                      DescribedWheel<2>, const OptimizationState<2>&, DescribedWheel<2>);
-template RunSummary<3> summarized_run(const Study<3>&, const InitialShape<3>&, const Expected<double>&,
-                                      DescribedWheel<3>, const OptimizationState<3>&, DescribedWheel<3>);
+template decltype(summarized_run<2>) summarized_run<2>;
+template decltype(summarized_run<3>) summarized_run<3>;
 
 }  // namespace wheelwright

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wheelwright/report/run_summary.h"
+#include "wheelwright/output/report/run_summary.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/study.h"
 

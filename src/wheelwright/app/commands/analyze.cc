@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/contact_progress.h"
@@ -15,10 +14,11 @@
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/report/pressure_plot.h"
-#include "wheelwright/report/rolling_report.h"
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/output/report/pressure_plot.h"
+#include "wheelwright/output/report/rolling_report.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/wheel_pictures.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

@@ -6,10 +6,10 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
 #include "wheelwright/case/derived.h"
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/report/wheel_comparison.h"
+#include "wheelwright/output/report/wheel_comparison.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

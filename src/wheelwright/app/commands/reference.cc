@@ -2,6 +2,8 @@
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/run/command_reference.h"
+#include "wheelwright/run/commands.h"
 
 namespace wheelwright {
 namespace {
@@ -10,10 +12,18 @@ class ReferenceCommand : public Subcommand {
  public:
   ReferenceCommand() : Subcommand("reference", "Print the reference page for all keys of a case file") {}
 
+  void declare(Options& options) override {
+    options.flag("--commands", of_commands_, "Print that of the commands in a commands.jsonl");
+  }
+
   int run() override {
-    print_lines(stdout, case_reference_markdown());
+    print_lines(stdout, of_commands_ ? command_reference_markdown(commands_of_every_run())
+                                     : case_reference_markdown());
     return exit_done;
   }
+
+ private:
+  bool of_commands_ = false;
 };
 
 }  // namespace

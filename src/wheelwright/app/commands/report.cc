@@ -7,13 +7,13 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
 #include "wheelwright/case/derived.h"
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/final_results.h"
 #include "wheelwright/run/given_wheel.h"
 #include "wheelwright/run/run_report.h"
 #include "wheelwright/run/summarized_run.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheelwright/explore/sweep.h"
+#include "wheelwright/design/explore/sweep.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -15,8 +15,8 @@
 #include "wheelwright/app/watch_status.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/command_log.h"
-#include "wheelwright/server/local_server.h"
-#include "wheelwright/watch/session.h"
+#include "wheelwright/web/server/local_server.h"
+#include "wheelwright/web/watch/session.h"
 
 namespace wheelwright {
 namespace {

@@ -1,0 +1,202 @@
+#include "wheelwright/design/explore/design_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <variant>
+
+#include "wheelwright/design/explore/workers.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/path_queries.h"
+#include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/run/own_drawings.h"
+#include "wheelwright/run/run.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Shapes of a preview whose run does not start on a coarser grid.
+constexpr int shapes_of_preview = 15;
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+fs::path result_file(const fs::path& designs, const Design& design, Progression progression) {
+  return designs /
+         fmt::format("{}.{}.json", design.name, progression == Progression::full ? "full" : "preview");
+}
+
+std::optional<DesignResult> known_result(const fs::path& file) {
+  if (!is_there(file)) return {};
+  try {
+    return design_result(content(file));
+  } catch (const nlohmann::json::exception&) {
+    return {};  // computed again
+  }
+}
+
+/// Stops a run once, on request.
+class StopOnce {
+ public:
+  explicit StopOnce(const std::function<bool()>& requested) : requested_(requested) {}
+  std::optional<Command> operator()() {
+    if (was_passed_on_ || !requested_()) return {};
+    was_passed_on_ = true;
+    return Stop{};
+  }
+
+ private:
+  const std::function<bool()>& requested_;
+  bool was_passed_on_ = false;
+};
+
+/// Stops a run where its preview ends: on the case's grid after the coarser ones, or after a few shapes.
+class EndOfPreview : public Observer<2> {
+ public:
+  explicit EndOfPreview(CommandQueue& commands) : commands_(commands) {}
+
+  void operator()(const Event<2>& event, const RunView<2>& run) override {
+    if (const auto* started = std::get_if<RunStarted>(&event); started && started->resumed_after)
+      has_changed_grid_ =
+          run.study.level == 0 && run.study.source.optimizer.coarse_levels > 0 && *started->resumed_after > 0;
+    if (std::holds_alternative<GridChanged>(event)) has_changed_grid_ = true;
+    if (std::holds_alternative<RunStarted>(event) && has_changed_grid_) end();
+    const auto* done = std::get_if<TrialDone<2>>(&event);
+    if (!done || done->trial.verdict != Verdict::accepted || run.study.level > 0 || is_over_) return;
+    if (has_changed_grid_ || done->state.iteration >= shapes_of_preview) end();
+  }
+
+  bool is_over() const { return is_over_; }
+
+ private:
+  void end() {
+    is_over_ = true;
+    commands_.push(Stop{});
+  }
+
+  CommandQueue& commands_;
+  bool has_changed_grid_ = false, is_over_ = false;
+};
+
+/// The largest violation of a summary's bounds, as a fraction of the bound.
+double largest_violation(const nlohmann::json& bounds) {
+  double largest = 0;
+  for (const auto& bound : bounds) {
+    if (bound.at("is_kept")) continue;
+    const double limit = bound.at("bound");
+    largest = std::max(
+        largest, std::abs(bound.at("value").get<double>() - limit) / (limit == 0 ? 1 : std::abs(limit)));
+  }
+  return largest;
+}
+
+/// Reads the numbers of the last shape that a run wrote to its folder.
+void read_summary(const fs::path& folder, DesignResult& result) {
+  if (!is_there(folder / "summary.json")) return;
+  const auto summary = nlohmann::json::parse(content(folder / "summary.json"));
+  if (!summary.contains("after")) return;
+  if (summary.contains("bounds")) result.violation = largest_violation(summary["bounds"]);
+  const auto& after = summary.at("after");
+  auto& numbers = result.numbers;
+  result.shapes = after.at("shape");
+  for (const WheelNumber<2>& number : wheel_numbers<2>())  // some numbers exist only for some wheels
+    if (after.contains(number.key) && after[number.key].is_number())
+      numbers[number.key] = after[number.key].get<double>();
+  if (after.contains("load_cases"))
+    for (const auto& [load_case, of_case] : after["load_cases"].items())
+      for (const auto& [key, value] : of_case.items())
+        if (value.is_number()) numbers[key_in_case(key, load_case)] = value.template get<double>();
+}
+
+/// Why a design's folder cannot be used.
+std::string fault_of_folder(const NotBegun<2>& reason, const fs::path& folder) {
+  if (const auto* in_use = std::get_if<FolderInUse>(&reason))
+    return fmt::format("{} is writing to {}", to_string(*in_use), folder.string());
+  return fmt::format("{} cannot be used: its files belong to another design, or are corrupted",
+                     folder.string());
+}
+
+/// The outcome of a design's run: a result, or why its folder cannot be used; neither if it was stopped.
+struct DesignRun {
+  std::optional<DesignResult> result;
+  std::string fault;
+};
+
+Expected<Run<2>, NotBegun<2>> begun_or_resumed(const Design& design, const fs::path& folder) {
+  if (is_there(folder / "case.toml")) return Run<2>::resume(with_own_drawings(design.source), folder);
+  return Run<2>::begin(design.source, folder);
+}
+
+DesignRun run_design(const Design& design, const fs::path& folder, Progression progression,
+                     const std::function<bool()>& stop_requested) {
+  DesignResult result{progression, ""};
+  auto run = begun_or_resumed(design, folder);
+  if (run) {
+    CommandQueue commands;
+    commands.add_source(StopOnce(stop_requested));
+    const EndOfPreview* end = nullptr;
+    if (progression == Progression::preview) {
+      auto observer = std::make_unique<EndOfPreview>(commands);
+      end = observer.get();
+      run->add(std::move(observer));
+    }
+    const RunResult<2> ended = run->execute(commands);
+    const bool is_end_of_preview = end && end->is_over();
+    if (ended.reason == StopReason::stop_requested && !is_end_of_preview) return {};
+    result.status = is_end_of_preview ? "preview" : to_string(ended.reason);
+  } else if (const auto* finished = std::get_if<AlreadyFinished<2>>(&run.failure())) {
+    result.status = to_string(*finished->end.finished);
+  } else if (const auto* failure = std::get_if<Failure>(&run.failure())) {
+    result.status = to_string(failure->reason);
+    return {result, ""};
+  } else {
+    return {{}, fault_of_folder(run.failure(), folder)};
+  }
+  read_summary(folder, result);
+  return {result, ""};
+}
+
+}  // namespace
+
+std::vector<std::optional<DesignResult>> run_designs(const fs::path& folder,
+                                                     const std::vector<Design>& designs,
+                                                     Progression progression, const RunSettings& settings) {
+  const fs::path place = folder / folder_of_designs;
+  make_subfolder(place);
+  std::vector<std::optional<DesignResult>> results(designs.size());
+  std::mutex mutex;
+  on_threads(settings.threads, static_cast<int>(designs.size()), [&](int i) {
+    const Design& design = designs[i];
+    const fs::path file = result_file(place, design, progression);
+    std::optional<DesignResult> result = known_result(file);
+    if (!result) {
+      if (settings.stop_requested() || !settings.may_begin()) return;
+      {
+        const std::scoped_lock lock(mutex);
+        make_subfolder(place / design.name);
+      }
+      DesignRun run = run_design(design, place / design.name, progression, settings.stop_requested);
+      result = std::move(run.result);
+      if (!run.fault.empty()) {
+        const std::scoped_lock lock(mutex);
+        settings.left_out(design, run.fault);
+      }
+      if (!result) return;
+    }
+    const std::scoped_lock lock(mutex);
+    if (!is_there(file)) write_atomically(file, to_json(*result));
+    settings.done(design, *result);
+    results[i] = std::move(result);
+  });
+  return results;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,197 @@
+#include "wheelwright/design/explore/exploration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/load_saved_shape.h"
+#include "wheelwright/design/explore/pareto.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/level_set_file.h"
+#include "wheelwright/output/report/svg.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// J_e / J_p2 of a case's initial shape, both summed over its load positions; 0 if the contact is the same at
+/// all positions up to rounding, so that there is nothing to even out.
+Expected<double> weight_of_evenness(Case c) {
+  c.objective.strain_energy = c.objective.uniformity_dual = 1;
+  const auto study = make_study<2>(c);
+  if (!study) return study.failure();
+  const auto evaluated = evaluate_of(*study)(study->initial, nullptr);
+  if (!evaluated) return evaluated.failure();
+  const auto value = [&](std::string_view name) {
+    return std::ranges::find(evaluated->evaluation.terms, name, &TermValue::name)->value;
+  };
+  constexpr double min_share = 1e-8;
+  const double energy = value("strain_energy"), unevenness = value("uniformity_dual");
+  return unevenness > min_share * energy ? energy / unevenness : 0;
+}
+
+/// The case as a design runs it: without the many output files that nobody opens.
+Case as_design(Case c) {
+  c.output.vtu_every = c.output.pictures_every = 0;
+  c.output.checkpoint_every = 50;
+  c.expectations = {};
+  return c;
+}
+
+std::string design_name(std::size_t i) { return fmt::format("{:03}", i + 1); }
+
+/// The wheel in a run's folder, as an SVG path.
+std::string outline(const fs::path& file) {
+  constexpr double size = 100;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const auto psi = parse_level_set_file<2>(bytes);
+  if (!psi) return {};
+  const PolarGrid<2>& grid = psi->lattice.grid();
+  return material_path(grid, material_contours(*psi, 1), 0.5 * size / grid.outer_radius, 1,
+                       0.01 * grid.outer_radius);
+}
+
+std::vector<RatedDesign> rated(const std::vector<Design>& designs,
+                               const std::vector<std::optional<DesignResult>>& results) {
+  std::vector<RatedDesign> all;
+  for (std::size_t i = 0; i < designs.size(); ++i)
+    if (results[i]) all.push_back({designs[i], *results[i]});
+  return all;
+}
+
+}  // namespace
+
+namespace {
+
+/// The volume of a case's designs as a fraction of the ring, from its target, a bound or its own shape.
+std::optional<double> volume_of_designs(const Case& c) {
+  if (c.volume.target) return c.volume.target;
+  const auto bound = std::ranges::find(c.constraints, built_in("volume_fraction"), &Constraint::quantity);
+  if (bound != c.constraints.end() && bound->equals) return bound->equals;
+  if (has_holes(c)) return initial_volume(c);
+  if (bound == c.constraints.end()) return {};
+  return bound->at_most ? bound->at_most : bound->at_least;
+}
+
+/// The case's own shape and the random ones, as far as time permits.
+Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan& plan,
+                                            const DrawingSettings& settings) {
+  const auto volume = volume_of_designs(c);
+  if (!volume)
+    return Failure{FailureReason::empty_shape,
+                   fmt::format("the volume of the designs is undefined; give the case holes{}",
+                               holds_volume(c) ? " or volume.target" : "")};
+  std::vector<Start> starts;
+  if (has_holes(c)) starts.push_back({"the case's own shape", c});
+  FailedAttempts failed;
+  int without_start = 0;
+  for (int number = 0; static_cast<int>(starts.size()) < plan.starts && without_start < n_kinds_of_starts;
+       ++number) {
+    if (settings.must_end()) break;
+    DrawnStart drawing = draw_start(c, {*volume, plan.keeps_sectors}, plan.seed, number, settings.must_end);
+    without_start = drawing.start ? 0 : without_start + 1;
+    failed += drawing.failed;
+    if (drawing.start) starts.push_back(*std::move(drawing.start));
+    settings.report({static_cast<int>(starts.size()), failed, false});
+  }
+  settings.report({static_cast<int>(starts.size()), failed, true});
+  if (starts.empty() && !settings.must_end())
+    return Failure{FailureReason::empty_shape,
+                   fmt::format("no start with the volume {:.6g} was found; {}", *volume, to_string(failed))};
+  return starts;
+}
+
+}  // namespace
+
+Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan,
+                                              const DrawingSettings& settings) {
+  auto starts = planned_starts(c, plan, settings);
+  if (!starts) return starts.failure();
+  double weight = 0;
+  if (!starts->empty() && minimizes_weighted_sum(c) &&
+      std::ranges::any_of(plan.quantities, &RankedQuantity::is_of_evenness)) {
+    const auto found = weight_of_evenness(starts->front().source);
+    if (!found) return found.failure();
+    weight = *found;
+  }
+  std::vector<Design> designs;
+  for (std::size_t i = 0; i < starts->size(); ++i) {
+    const double relative =
+        relative_weights_of_evenness[(i + i / 10) % std::size(relative_weights_of_evenness)];
+    Case source = as_design(std::move((*starts)[i].source));
+    if (i > 0 && weight * relative > 0) source.objective.uniformity_dual += weight * relative;
+    designs.push_back({design_name(i),
+                       (*starts)[i].text,
+                       std::move(source),
+                       {{"weight_of_evenness", designs.empty() ? 0 : weight * relative}}});
+  }
+  return designs;
+}
+
+std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
+                                const std::vector<RankedQuantity>& quantities) {
+  std::vector<int> order = spread_order(rated_points(previews, quantities));
+  order.resize(std::min(order.size(), (previews.size() + 2) / 3));
+  std::ranges::sort(order);
+  return order;
+}
+
+namespace {
+
+/// Previews of nondominated designs, without those that were tried already.
+std::vector<int> nondominated_previews(const std::vector<RatedDesign>& designs,
+                                       const std::vector<RankedQuantity>& quantities,
+                                       const std::set<int>& tried) {
+  const std::vector<int> front = fronts(rated_points(designs, quantities));
+  std::vector<int> result;
+  for (int i = 0; i < static_cast<int>(designs.size()); ++i)
+    if (front[i] == 1 && designs[i].result.progression == Progression::preview && !tried.contains(i))
+      result.push_back(i);
+  return result;
+}
+
+}  // namespace
+
+std::vector<RatedDesign> explore(const fs::path& folder, const std::vector<Design>& designs,
+                                 const std::vector<RankedQuantity>& quantities, const RunSettings& settings) {
+  std::vector<RatedDesign> all = rated(designs, run_designs(folder, designs, Progression::preview, settings));
+  std::set<int> tried;
+  for (auto chosen = chosen_designs(all, quantities); !chosen.empty() && !settings.stop_requested();
+       chosen = nondominated_previews(all, quantities, tried)) {
+    std::vector<Design> best;
+    for (const int i : chosen) best.push_back(all[i].design);
+    const auto results = run_designs(folder, best, Progression::full, settings);
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+      if (results[k]) all[chosen[k]].result = *results[k];
+    tried.insert(chosen.begin(), chosen.end());
+  }
+  return all;
+}
+
+std::vector<RatedDesign> run_all(const fs::path& folder, const std::vector<Design>& designs,
+                                 const RunSettings& settings) {
+  return rated(designs, run_designs(folder, designs, Progression::full, settings));
+}
+
+std::vector<RankedDesign> write_designs(const fs::path& folder, const std::string& name,
+                                        const std::vector<RatedDesign>& designs,
+                                        const std::vector<RankedQuantity>& quantities,
+                                        const std::string& title) {
+  std::vector<RankedDesign> order = ranked(designs, quantities);
+  for (RankedDesign& one : order)
+    one.outline = outline(folder / folder_of_designs / one.design.name / saved_shape_file);
+  write_atomically(folder / (name + ".csv"), designs_csv(order));
+  write_atomically(folder / (name + ".json"), designs_json(order, quantities));
+  write_atomically(folder / pareto_picture, pareto_svg(order, quantities, title));
+  write_atomically(folder / (name + ".html"), designs_page(order, quantities, title));
+  return order;
+}
+
+}  // namespace wheelwright

@@ -1,9 +1,0 @@
-#include "wheelwright/export/stl.h"
-
-namespace wheelwright {
-
-std::string stl(const SolidModel& solid) {
-  return stl_file(solid.mesh, solid.program + ", millimetres: " + solid.title);
-}
-
-}  // namespace wheelwright

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+
+#include "wheelwright/mechanics/contact/contact_state.h"
+#include "wheelwright/mechanics/ring/surface_compliance.h"
+#include "wheelwright/mechanics/state/ground_frame.h"
+#include "wheelwright/mechanics/state/load_positions.h"
+
+namespace wheelwright {
+
+/// A contact quadrature point in the ground frame.
+template <int dim>
+struct ContactPoint {
+  Vec<dim> position;  ///< relative to the axle: component 0 towards the ground, 1 along it [m]
+  double gap;         ///< g (9) [m]
+  double weight;      ///< dS
+  double gamma;       ///< [Pa/m]
+  GroundFrame frame;  ///< turns column-frame components into the ground frame
+};
+
+/// The contact points of a zone at one load position, in the order (column, point of the column).
+template <int dim>
+struct ContactPoints {
+  /// The position of a point in its column.
+  struct Place {
+    double columns;     ///< of the azimuth, from 0 to 1
+    double along_axle;  ///< [m]
+  };
+
+  ContactZone zone;
+  int ring_columns;
+  double ground;              ///< the ground position, in columns from the zone's first azimuth
+  std::vector<Place> places;  ///< of the points of a column
+  std::vector<ContactPoint<dim>> points;
+
+  int size() const { return static_cast<int>(points.size()); }
+  int per_column() const { return size() / zone.n_columns; }
+  /// The column of the zone in which a point lies, and its number in that column.
+  int column(int point) const { return point / per_column(); }
+  int point_of_column(int point) const { return point % per_column(); }
+  ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
+};
+
+/// The points of a tread near the ground, or inside a rigid ring to which it is bonded without gaps.
+template <int dim>
+ContactPoints<dim> contact_points(const Tread<dim>& tread, const PolarGrid<dim>& grid, GroundPosition ground,
+                                  ContactZone zone);
+
+/// How the tread answers tractions at its contact points, whatever law they obey.
+template <int dim>
+struct ContactOperator {
+  ContactPoints<dim> at;
+  int components;      ///< of the tractions: 1, only the normal one, or dim
+  double tau, theta;   ///< (ContactForm)
+  Matrix flexibility;  ///< F: z for forces at the points, in the order (point, component)
+
+  /// F forces, one column per load.
+  Matrix replies(const Matrix& forces) const;
+};
+
+/// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart, or half of the ring; with
+/// tangential tractions or a lean the tread must trace all components.
+template <int dim>
+std::shared_ptr<const ContactOperator<dim>> contact_operator(const SurfaceCompliance<dim>& surface,
+                                                             const Tread<dim>& tread,
+                                                             ContactPoints<dim> points, int components);
+
+}  // namespace wheelwright

@@ -1,0 +1,466 @@
+#include "wheelwright/mechanics/elasticity/element.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wheelwright {
+namespace {
+
+/// Tensor indices (i, j) of the Voigt components.
+template <int dim>
+constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
+  if constexpr (dim == 2)
+    return {{{0, 0}, {1, 1}, {0, 1}}};
+  else
+    return {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+}
+
+/// Variance of the linear functions, in units of h_T^2, below which a part of a cell is too thin to determine
+/// the slope of div u across it. Rounding of the variance is 1e-16.
+constexpr double smallest_variance = 1e-12;
+
+/// Strains or stresses on the dofs of a cell, [component][dof].
+template <int dim>
+using OnDofs = std::array<std::array<double, ElasticElement<dim>::max_dofs>, n_strains<dim>>;
+
+template <int dim>
+StrainRows<dim> rows(const OnDofs<dim>& strains, int n_dofs) {
+  StrainRows<dim> result;
+  for (int s = 0; s < n_strains<dim>; ++s) result[s] = std::span(strains[s]).first(n_dofs);
+  return result;
+}
+template <int dim>
+StressRows<dim> rows(OnDofs<dim>& stresses, int n_dofs) {
+  StressRows<dim> result;
+  for (int s = 0; s < n_strains<dim>; ++s) result[s] = std::span(stresses[s]).first(n_dofs);
+  return result;
+}
+
+/// The stress 2 mu (eps - tr(eps) / dim I).
+template <int dim>
+void deviatoric_stress(double mu, const StrainRows<dim>& strains, const StressRows<dim>& stresses) {
+  for (size_t i = 0; i < strains[0].size(); ++i) {
+    double trace = 0;
+    for (int d = 0; d < dim; ++d) trace += strains[d][i];
+    for (int s = 0; s < n_strains<dim>; ++s)
+      stresses[s][i] = s < dim ? -2 * mu / dim * trace + 2 * mu * strains[s][i] : mu * strains[s][i];
+  }
+}
+
+}  // namespace
+
+template <int dim>
+Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal) {
+  Vec<dim> t{};
+  constexpr auto indices = voigt_indices<dim>();
+  for (int s = 0; s < n_strains<dim>; ++s) {
+    const auto [i, j] = indices[s];
+    t[i] += stress[s] * normal[j];
+    if (i != j) t[j] += stress[s] * normal[i];
+  }
+  return t;
+}
+
+template <int dim>
+ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
+                                    const MaterialLaw<dim>& law)
+    : degree_(degree), map_(grid, degree, cell) {
+  const double spacing = grid.cell_size()[1] / degree;
+  for (int a = 0; a < n_nodes(); ++a) {
+    const double angle = local_node_position<dim>(degree, a)[1] * spacing;
+    frames_[a] = {};
+    for (int d = 0; d < dim; ++d) frames_[a][d][d] = 1;
+    frames_[a][0][0] = frames_[a][1][1] = std::cos(angle);
+    frames_[a][0][1] = -std::sin(angle);
+    frames_[a][1][0] = std::sin(angle);
+  }
+  std::array<Vec<dim>, power(2, dim)> corners;
+  for (int k = 0; k < power(2, dim); ++k) {
+    const auto p = local_node_position<dim>(1, k);
+    Vec<dim> xi;
+    std::copy(p.begin(), p.end(), xi.begin());
+    corners[k] = map_.position(ShapeFunctions<dim>(degree, xi));
+  }
+  plane_diameter_ = 0;
+  for (const auto& a : corners)
+    for (const auto& b : corners)
+      plane_diameter_ = std::max(plane_diameter_, norm<2>({a[0] - b[0], a[1] - b[1]}));
+  if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
+  if (const Material* material = law.isotropic();
+      material && degree == 2 && material->nearly_incompressible())
+    dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2)).coefficients;
+}
+
+template <int dim>
+std::array<double, dim + 1> ElasticElement<dim>::linear_functions(const Vec<dim>& x) const {
+  Vec<dim> middle;
+  middle.fill(0.5);
+  const Vec<dim> centre = map_.position(ShapeFunctions<dim>(degree_, middle));
+  std::array<double, dim + 1> values{1};
+  for (int d = 0; d < dim; ++d) values[d + 1] = (x[d] - centre[d]) / plane_diameter_;
+  return values;
+}
+
+template <int dim>
+auto ElasticElement<dim>::project_dilatation(std::span<const ReferencePoint<dim>> part) const -> Dilatation {
+  Matrix mass(dim + 1, dim + 1), moments(dim + 1, n_dofs());
+  for (const auto& q : part) {
+    const Point at = with_pointwise_strain(q.xi);
+    const double weight = q.weight * at.determinant;
+    const auto linear = linear_functions(at.position);
+    for (int a = 0; a <= dim; ++a) {
+      for (int b = 0; b <= dim; ++b) mass(a, b) += weight * linear[a] * linear[b];
+      for (int dof = 0; dof < n_dofs(); ++dof) moments(a, dof) += weight * linear[a] * at.dilatation[dof];
+    }
+  }
+  for (int a = 1; a <= dim; ++a) mass(a, a) += smallest_variance * mass(0, 0);
+  if (!cholesky(mass)) return {moments, Matrix(dim + 1, n_dofs())};  // no volume
+  Matrix coefficients = moments;
+  cholesky_solve(mass, coefficients);
+  return {std::move(moments), std::move(coefficients)};
+}
+
+template <int dim>
+auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
+  Point point = with_pointwise_strain(xi);
+  if (!projects_dilatation()) return point;
+  const auto linear = linear_functions(point.position);
+  for (int dof = 0; dof < n_dofs(); ++dof) {
+    double dilatation = 0;
+    for (int a = 0; a <= dim; ++a) dilatation += dilatation_(a, dof) * linear[a];
+    const double change = (dilatation - point.dilatation[dof]) / dim;
+    for (int d = 0; d < dim; ++d) point.strain[d][dof] += change;
+  }
+  return point;
+}
+
+template <int dim>
+auto ElasticElement<dim>::with_pointwise_strain(const Vec<dim>& xi) const -> Point {
+  const ShapeFunctions<dim> shape(degree_, xi);
+  const Mat<dim> jacobian = map_.jacobian(shape);
+  Point point{.position = map_.position(shape),
+              .jacobian = jacobian,
+              .determinant = determinant<dim>(jacobian),
+              .strain = {},
+              .displacement = {},
+              .dilatation = {}};
+  const Mat<dim> inverse_jacobian = inverse<dim>(jacobian);
+  constexpr auto indices = voigt_indices<dim>();
+  for (int a = 0; a < n_nodes(); ++a) {
+    const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+    for (int c = 0; c < dim; ++c) {
+      const int k = dof(a, c);
+      for (int i = 0; i < dim; ++i) point.displacement[i][k] = frames_[a][i][c] * shape.value[a];
+      for (int s = 0; s < n_strains<dim>; ++s) {
+        const auto [i, j] = indices[s];
+        point.strain[s][k] = frames_[a][i][c] * gradient[j];
+        if (i != j) point.strain[s][k] += frames_[a][j][c] * gradient[i];
+      }
+      for (int d = 0; d < dim; ++d) point.dilatation[k] += point.strain[d][k];
+    }
+  }
+  return point;
+}
+
+template <int dim>
+auto ElasticElement<dim>::gradient(const Vec<dim>& xi) const
+    -> std::array<std::array<double, max_dofs>, dim * dim> {
+  const ShapeFunctions<dim> shape(degree_, xi);
+  const Mat<dim> inverse_jacobian = inverse<dim>(map_.jacobian(shape));
+  std::array<std::array<double, max_dofs>, dim * dim> result{};
+  for (int a = 0; a < n_nodes(); ++a) {
+    const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+    for (int c = 0; c < dim; ++c)
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j) result[dim * i + j][dof(a, c)] = frames_[a][i][c] * gradient[j];
+  }
+  return result;
+}
+
+template <int dim>
+auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, int axis, const Vec<dim>& n) const
+    -> std::array<std::array<double, max_dofs>, dim> {
+  const ShapeFunctions<dim> shape(degree_, xi);
+  const Mat<dim> inverse_jacobian = inverse<dim>(map_.jacobian(shape));
+  Vec<dim> m{};  // in the coordinates of the unit cell
+  for (int j = 0; j < dim; ++j) m[axis] += inverse_jacobian[axis][j] * n[j];
+  const auto curvature = map_.second_derivative(xi, m);  // d^2 x / dm^2
+
+  std::array<std::array<double, max_dofs>, dim> result{};
+  for (int a = 0; a < n_nodes(); ++a) {
+    const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+    const double value = shape_second_derivative<dim>(degree_, a, xi, m) - dot<dim>(gradient, curvature);
+    for (int c = 0; c < dim; ++c)
+      for (int i = 0; i < dim; ++i) result[i][dof(a, c)] = frames_[a][i][c] * value;
+  }
+  return result;
+}
+
+template <int dim>
+std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
+    const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
+    const typename ElasticElement<dim>::Point& point, const Vec<dim>& normal) {
+  OnDofs<dim> stresses;
+  law.stress(rows<dim>(point.strain, element.n_dofs()), rows<dim>(stresses, element.n_dofs()));
+  std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> result{};
+  for (int dof = 0; dof < element.n_dofs(); ++dof) {
+    Voigt<dim> sigma;
+    for (int s = 0; s < n_strains<dim>; ++s) sigma[s] = stresses[s][dof];
+    const Vec<dim> t = traction<dim>(sigma, normal);
+    for (int d = 0; d < dim; ++d) result[d][dof] = t[d];
+  }
+  return result;
+}
+
+template <int dim>
+Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
+                      std::span<const ReferencePoint<dim>> points) {
+  const int n = element.n_dofs();
+  Matrix k(n, n);
+  OnDofs<dim> stresses;
+  for (const auto& q : points) {
+    const auto point = element.at(q.xi);
+    const double weight = q.weight * point.determinant;
+    if (element.projects_dilatation())
+      deviatoric_stress<dim>(law.isotropic()->mu(), rows<dim>(point.strain, n), rows<dim>(stresses, n));
+    else
+      law.stress(rows<dim>(point.strain, n), rows<dim>(stresses, n));
+    for (int j = 0; j < n; ++j)
+      for (int s = 0; s < n_strains<dim>; ++s) {
+        const double value = weight * stresses[s][j];
+        double* column = k.column(j);
+        for (int i = j; i < n; ++i) column[i] += point.strain[s][i] * value;
+      }
+  }
+  if (element.projects_dilatation()) {
+    const auto dilatation = element.project_dilatation(points);
+    const Material& material = *law.isotropic();
+    const double bulk = material.lambda() + 2 * material.mu() / dim;
+    multiply(bulk, dilatation.moments, Op::transpose, dilatation.coefficients, Op::none, 1, k);
+  }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < j; ++i) k(i, j) = k(j, i);
+  return k;
+}
+
+template <int dim>
+Matrix gradient_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
+                          std::span<const ReferencePoint<dim>> points) {
+  const int n = element.n_dofs();
+  Matrix k(n, n);
+  for (const auto& q : points) {
+    const double weight = q.weight * element.at(q.xi).determinant * law.scaling_modulus();
+    for (const auto& derivative : element.gradient(q.xi))
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) k(i, j) += weight * derivative[i] * derivative[j];
+  }
+  return k;
+}
+
+namespace {
+
+template <int dim>
+using DofMap = std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim>;
+
+/// The ghost penalty compares these values on both sides of a face, at one of its points: linear maps of the
+/// dofs of a cell (rows: components in the frame of the minus cell).
+template <int dim>
+struct FaceTerm {
+  DofMap<dim> minus, plus;
+  double weight;  ///< of the square of their difference
+};
+
+/// A point with the strain of u itself, whose trace is not projected.
+template <int dim>
+typename ElasticElement<dim>::Point with_own_dilatation(const ElasticElement<dim>& element,
+                                                        const Vec<dim>& xi) {
+  auto point = element.at(xi);
+  for (int k = 0; k < element.n_dofs() && element.projects_dilatation(); ++k) {
+    double trace = 0;
+    for (int d = 0; d < dim; ++d) trace += point.strain[d][k];
+    for (int d = 0; d < dim; ++d) point.strain[d][k] += (point.dilatation[k] - trace) / dim;
+  }
+  return point;
+}
+
+/// `at` returns the map and strain of an element at a point of the unit cell.
+template <int dim>
+std::vector<FaceTerm<dim>> face_terms(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus,
+                                      int axis, double angle, const MaterialLaw<dim>& law,
+                                      const GhostPenalty& ghost, const auto& at) {
+  const double h = 0.5 * (minus.size_across(axis) + plus.size_across(axis)), modulus = law.scaling_modulus();
+  const auto in_frame_of_minus = [&](const DofMap<dim>& of_plus) {
+    DofMap<dim> result{};
+    for (int j = 0; j < plus.n_dofs(); ++j) {
+      Vec<dim> column;
+      for (int d = 0; d < dim; ++d) column[d] = of_plus[d][j];
+      column = rotated<dim>(column, angle);
+      for (int d = 0; d < dim; ++d) result[d][j] = column[d];
+    }
+    return result;
+  };
+  std::vector<FaceTerm<dim>> terms;
+  for (const auto& q : unit_cell_rule<dim - 1>(minus.degree() + 1)) {
+    Vec<dim> xi_minus, xi_plus, reference_normal{};
+    for (int d = 0, f = 0; d < dim; ++d) {
+      xi_minus[d] = d == axis ? 1 : q.xi[f];
+      xi_plus[d] = d == axis ? 0 : q.xi[f];
+      if (d != axis) ++f;
+    }
+    reference_normal[axis] = 1;
+    const auto at_minus = at(minus, xi_minus), at_plus = at(plus, xi_plus);
+    const auto surface = map_surface<dim>(at_minus.jacobian, reference_normal);
+    const Vec<dim> normal = surface.normal, plus_normal = rotated<dim>(normal, -angle);
+    const double weight = q.weight * surface.scale * 0.5 * ghost.xi;
+    terms.push_back({traction_map<dim>(minus, law, at_minus, normal),
+                     in_frame_of_minus(traction_map<dim>(plus, law, at_plus, plus_normal)),
+                     weight * h / modulus});
+    if (n_compared_derivatives(ghost, minus.degree()) > 1)
+      terms.push_back({minus.second_derivative(xi_minus, axis, normal),
+                       in_frame_of_minus(plus.second_derivative(xi_plus, axis, plus_normal)),
+                       weight * h * h * h * modulus});
+  }
+  return terms;
+}
+
+/// The form of the jumps on the dofs of both cells.
+template <int dim>
+Matrix jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus,
+                      const std::vector<FaceTerm<dim>>& terms) {
+  const int n_minus = minus.n_dofs(), n = n_minus + plus.n_dofs();
+  Matrix k(n, n);
+  std::vector<double> jump(n);
+  for (const auto& term : terms)
+    for (int d = 0; d < dim; ++d) {
+      for (int j = 0; j < n_minus; ++j) jump[j] = -term.minus[d][j];
+      for (int j = n_minus; j < n; ++j) jump[j] = term.plus[d][j - n_minus];
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) k(i, j) += term.weight * jump[i] * jump[j];
+    }
+  return k;
+}
+
+/// The places of a node of a cell among the nodes of the cell's first or last face normal to the azimuth, and
+/// among the layers from there.
+struct LayerNode {
+  int face_node;
+  int layer;  ///< 0 on the first azimuth of the cell
+};
+template <int dim>
+LayerNode layer_node(int degree, int node) {
+  const auto p = local_node_position<dim>(degree, node);
+  int face_node = p[0];
+  if constexpr (dim == 3) face_node += p[2] * (degree + 1);
+  return {face_node, p[1]};
+}
+
+/// The dofs of a cell whose displacement has given values on a face normal to the azimuth, the first or the
+/// last, and given derivatives across it with respect to the coordinate of the unit cell. Columns: values at
+/// the face's nodes, then first derivatives, then second ones; polar components at the face.
+template <int dim>
+Matrix extension(int degree, int n_derivatives, bool from_first_face, double column_angle) {
+  const int per_face = dim * power(degree + 1, dim - 1);
+  Matrix result(dim * nodes_per_cell<dim>(degree), per_face * (1 + n_derivatives));
+  for (int a = 0; a < nodes_per_cell<dim>(degree); ++a) {
+    const auto [face_node, layer] = layer_node<dim>(degree, a);
+    const double away = double(layer) / degree - (from_first_face ? 0 : 1);
+    const double powers[] = {1, away, away * away / 2};
+    for (int c = 0; c < dim; ++c) {
+      Vec<dim> unit{};
+      unit[c] = 1;
+      unit = rotated<dim>(unit, -away * column_angle);
+      for (int k = 0; k <= n_derivatives; ++k)
+        for (int d = 0; d < dim; ++d)
+          result(ElasticElement<dim>::dof(a, d), k * per_face + dim * face_node + c) = powers[k] * unit[d];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+template <int dim>
+Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
+                       double angle, const MaterialLaw<dim>& law, const GhostPenalty& ghost) {
+  return jump_stiffness<dim>(minus, plus,
+                             face_terms<dim>(minus, plus, axis, angle, law, ghost, with_own_dilatation<dim>));
+}
+
+template <int dim>
+Matrix traction_jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
+                               double angle, const MaterialLaw<dim>& law, double weight) {
+  const GhostPenalty of_traction{.kind = GhostPenaltyKind::paper, .xi = weight};
+  const auto at = [](const ElasticElement<dim>& element, const Vec<dim>& xi) { return element.at(xi); };
+  return jump_stiffness<dim>(minus, plus, face_terms<dim>(minus, plus, axis, angle, law, of_traction, at));
+}
+
+template <int dim>
+GhostHalves divided_ghost_stiffness(const ElasticElement<dim>& element, double column_angle,
+                                    const MaterialLaw<dim>& law, const GhostPenalty& ghost) {
+  const int degree = element.degree(), n_cell = element.n_dofs(),
+            n_derivatives = n_compared_derivatives(ghost, degree),
+            per_face = dim * power(degree + 1, dim - 1), n = n_cell + n_derivatives * per_face;
+  const Matrix before = extension<dim>(degree, n_derivatives, false, column_angle),
+               after = extension<dim>(degree, n_derivatives, true, column_angle);
+  GhostHalves halves{Matrix(n, n), Matrix(n, n)};
+  std::vector<double> between(per_face * (1 + n_derivatives)), difference(n);
+  const auto add = [&](const std::array<double, ElasticElement<dim>::max_dofs>& in_cell, int face_layer,
+                       double weight, Matrix& k) {
+    for (int j = 0; j < n_cell; ++j) difference[j] = -in_cell[j];
+    for (int a = 0; a < nodes_per_cell<dim>(degree); ++a)
+      if (const auto [face_node, layer] = layer_node<dim>(degree, a); layer == face_layer)
+        for (int c = 0; c < dim; ++c)
+          difference[ElasticElement<dim>::dof(a, c)] += between[dim * face_node + c];
+    for (int j = n_cell; j < n; ++j) difference[j] = between[j - n_cell + per_face];
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) k(i, j) += weight * difference[i] * difference[j];
+  };
+  for (const auto& term :
+       face_terms<dim>(element, element, 1, column_angle, law, ghost, with_own_dilatation<dim>))
+    for (int d = 0; d < dim; ++d) {
+      for (size_t j = 0; j < between.size(); ++j) {
+        double sum = 0;
+        for (int i = 0; i < n_cell; ++i)
+          sum += term.minus[d][i] * before(i, static_cast<int>(j)) +
+                 term.plus[d][i] * after(i, static_cast<int>(j));
+        between[j] = sum / 2;
+      }
+      add(term.minus[d], degree, 2 * term.weight, halves.minus);
+      add(term.plus[d], 0, 2 * term.weight, halves.plus);
+    }
+  return halves;
+}
+
+Matrix half_of_symmetric_pair(const Matrix& form, int degree) {
+  const int n = form.rows() / 2;
+  Matrix pair(2 * n, n);  // the displacements of both cells by those of the minus cell
+  for (int a = 0; a < nodes_per_cell<3>(degree); ++a) {
+    const int layer = local_node_position<3>(degree, a)[2];
+    const int image = a + (degree - 2 * layer) * power(degree + 1, 2);
+    for (int c = 0; c < 3; ++c) {
+      const int dof = ElasticElement<3>::dof(a, c);
+      pair(dof, dof) = 1;
+      pair(n + ElasticElement<3>::dof(image, c), dof) = c == 2 ? -1 : 1;
+    }
+  }
+  Matrix half = product(pair, Op::transpose, product(form, Op::none, pair, Op::none), Op::none);
+  for (double& x : half.entries()) x /= 2;
+  return half;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                             \
+  template decltype(traction<dim>) traction<dim>;                                                \
+  template class ElasticElement<dim>;                                                            \
+  template std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map<dim>( \
+      const ElasticElement<dim>&, const MaterialLaw<dim>&, const ElasticElement<dim>::Point&,    \
+      const Vec<dim>&);                                                                          \
+  template decltype(cell_stiffness<dim>) cell_stiffness<dim>;                                    \
+  template decltype(gradient_stiffness<dim>) gradient_stiffness<dim>;                            \
+  template decltype(ghost_stiffness<dim>) ghost_stiffness<dim>;                                  \
+  template decltype(traction_jump_stiffness<dim>) traction_jump_stiffness<dim>;                  \
+  template decltype(divided_ghost_stiffness<dim>) divided_ghost_stiffness<dim>;
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

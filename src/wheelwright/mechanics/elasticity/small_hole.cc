@@ -1,0 +1,57 @@
+#include "wheelwright/mechanics/elasticity/small_hole.h"
+
+namespace wheelwright {
+namespace {
+
+/// By what the hole strains more than the body, in dilatation and in shear.
+struct Concentration {
+  double dilatation, deviator;
+};
+
+template <int dim>
+Concentration concentration(const Material& material) {
+  const double lambda = material.lambda(), mu = material.mu();
+  if constexpr (dim == 2) return {(lambda + 2 * mu) / mu, 2 * (lambda + 2 * mu) / (lambda + mu)};
+  const double nu = material.poissons_ratio;
+  return {1.5 * (1 - nu) / (1 - 2 * nu), 15 * (1 - nu) / (7 - 5 * nu)};
+}
+
+/// The strain of a stress in the plane.
+Voigt<2> strain_of(const Material& material, const Voigt<2>& stress) {
+  const double lambda = material.lambda(), mu = material.mu();
+  const double hydrostatic = lambda / (2 * (lambda + mu)) * (stress[0] + stress[1]);
+  return {(stress[0] - hydrostatic) / (2 * mu), (stress[1] - hydrostatic) / (2 * mu), stress[2] / mu};
+}
+
+}  // namespace
+
+template <int dim>
+Voigt<dim> strain_of_hole(const Material& material, const Voigt<dim>& distant) {
+  const auto [dilatation, deviator] = concentration<dim>(material);
+  double mean = 0;
+  for (int d = 0; d < dim; ++d) mean += distant[d] / dim;
+  Voigt<dim> strain;
+  for (int k = 0; k < n_strains<dim>; ++k)
+    strain[k] = k < dim ? dilatation * mean + deviator * (distant[k] - mean) : deviator * distant[k];
+  return strain;
+}
+
+Voigt<2> strain_around_hole(const Material& material, const Voigt<2>& distant, const Vec<2>& place) {
+  const Voigt<2> far = stress<2>(material, distant);
+  const double square = dot<2>(place, place), inverse = 1 / square, fourth = inverse * inverse;
+  const double cosine = (place[0] * place[0] - place[1] * place[1]) * inverse,
+               sine = 2 * place[0] * place[1] * inverse;  // of twice the angle
+  const double mean = 0.5 * (far[0] + far[1]), half_difference = 0.5 * (far[0] - far[1]);
+  const double along = half_difference * cosine + far[2] * sine,
+               across = far[2] * cosine - half_difference * sine;
+  const double radial = -mean * inverse + along * (3 * fourth - 4 * inverse),
+               azimuthal = mean * inverse - 3 * along * fourth, shear = across * (2 * inverse - 3 * fourth);
+  const double centre = 0.5 * (radial + azimuthal), half = 0.5 * (radial - azimuthal);
+  return strain_of(material, {centre + half * cosine - shear * sine, centre - half * cosine + shear * sine,
+                              half * sine + shear * cosine});
+}
+
+template decltype(strain_of_hole<2>) strain_of_hole<2>;
+template decltype(strain_of_hole<3>) strain_of_hole<3>;
+
+}  // namespace wheelwright

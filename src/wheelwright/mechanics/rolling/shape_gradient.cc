@@ -1,0 +1,345 @@
+#include "wheelwright/mechanics/rolling/shape_gradient.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/base/parallel.h"
+#include "wheelwright/mechanics/rolling/work_of_loads.h"
+#include "wheelwright/shape/geometry/mirror.h"
+
+namespace wheelwright {
+
+namespace {
+
+/// Strains of some points of an element on its dofs, side by side.
+template <int dim>
+Matrix strain_maps(const ElasticElement<dim>& element,
+                   std::span<const typename ElasticElement<dim>::Point> points) {
+  Matrix strains(element.n_dofs(), n_strains<dim> * static_cast<int>(points.size()));
+  for (size_t q = 0; q < points.size(); ++q)
+    for (int k = 0; k < n_strains<dim>; ++k)
+      std::copy_n(points[q].strain[k].begin(), element.n_dofs(),
+                  strains.column(n_strains<dim> * static_cast<int>(q) + k));
+  return strains;
+}
+
+/// Linear maps from a cell's dofs, one column each, in threes for every point of its moving boundary: the
+/// trace of the strain, div u, and div u projected on the part of the cell that `material` holds.
+template <int dim>
+Matrix dilatation_columns(const ElasticElement<dim>& element, std::span<const ReferencePoint<dim>> material,
+                          std::span<const typename ElasticElement<dim>::Point> points) {
+  const Matrix projection = element.project_dilatation(material).coefficients;
+  Matrix columns(element.n_dofs(), 3 * static_cast<int>(points.size()));
+  for (size_t q = 0; q < points.size(); ++q) {
+    double* trace = columns.column(3 * static_cast<int>(q));
+    double* dilatation = trace + columns.rows();
+    double* projected = dilatation + columns.rows();
+    const auto linear = element.linear_functions(points[q].position);
+    for (int dof = 0; dof < element.n_dofs(); ++dof) {
+      for (int d = 0; d < dim; ++d) trace[dof] += points[q].strain[d][dof];
+      dilatation[dof] = points[q].dilatation[dof];
+      for (int a = 0; a <= dim; ++a) projected[dof] += projection(a, dof) * linear[a];
+    }
+  }
+  return columns;
+}
+
+template <int dim>
+using BoundaryRule = std::vector<ReferenceSurfacePoint<dim>>;
+
+template <int dim>
+BoundaryRule<dim> mirrored(BoundaryRule<dim> rule) {
+  for (auto& q : rule) {
+    q.xi[1] = 1 - q.xi[1];
+    q.normal = mirror_image<dim>(q.normal);
+  }
+  return rule;
+}
+
+template <int dim>
+using EdgeRule = std::vector<ReferenceEdgePoint<dim>>;
+
+template <int dim>
+EdgeRule<dim> mirrored(EdgeRule<dim> rule) {
+  for (auto& q : rule) {
+    q.xi[1] = 1 - q.xi[1];
+    q.normal = mirror_image<dim>(q.normal);
+  }
+  return rule;
+}
+
+template <int dim>
+std::vector<ReferencePoint<dim>> mirrored(std::vector<ReferencePoint<dim>> rule) {
+  for (auto& q : rule) q.xi[1] = 1 - q.xi[1];
+  return rule;
+}
+
+/// The moving boundary in one cell, each of its points as often as it counts, and the material of the cell.
+template <int dim>
+struct CellBoundary {
+  int cell;
+  BoundaryRule<dim> rule;
+  std::vector<ReferencePoint<dim>> material;
+  EdgeRule<dim> edges;
+};
+
+/// The cells in which gradients are given for one cut cell: it alone; or it and its image, when positions
+/// stand for their images too; nothing for the image itself.
+template <int dim>
+std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const CutCell<dim>& cut) {
+  if (!s.positions.stand_for_images()) return {{cut.cell, cut.boundary, cut.material, cut.edges}};
+  const int image = mirror_image(s.domain.grid, cut.cell);
+  if (image < cut.cell) return {};
+  std::vector<CellBoundary<dim>> cells{
+      {cut.cell, cut.boundary, cut.material, cut.edges},
+      {image, mirrored<dim>(cut.boundary), mirrored<dim>(cut.material), mirrored<dim>(cut.edges)}};
+  if (image == cut.cell)
+    for (auto& cell : cells) {
+      for (auto& q : cell.rule) q.weight /= 2;
+      for (auto& q : cell.edges) q.weight /= 2;
+    }
+  return cells;
+}
+
+/// sum over the load cases of m_j factor_i M(u_j) at one point.
+template <int dim>
+double integrand(const RollingSolution<dim>& s, const StrainsAtPoint<dim>& point,
+                 std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
+  std::vector<double> values(point.n_cases());
+  double sum = 0;
+  for (const auto& [density, factors] : integrals) {
+    density->densities(point, values);
+    for (int j = 0; j < point.n_cases(); ++j)
+      sum += s.positions.multiplicities[j / point.n_sectors] * factors[j / point.n_sectors] * values[j];
+  }
+  return sum;
+}
+
+/// The densities of all functions, each of its positions as often as it counts.
+template <int dim>
+class Densities {
+ public:
+  Densities(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
+            std::span<const FunctionalDerivative<dim>> functions, std::span<const Adjoint> adjoints)
+      : problem_(problem), s_(s), functions_(functions), adjoints_(adjoints) {
+    for (const Adjoint& adjoint : adjoints) loads_.emplace_back(s.model, s, adjoint);
+  }
+
+  /// [function][point] on a cell's moving boundary.
+  std::vector<std::vector<double>> in_cell(const CellBoundary<dim>& boundary) const {
+    const PolarGrid<dim>& grid = problem_.model().grid;
+    const auto place = grid.cell_position(boundary.cell);
+    const double angle = place[1] * grid.cell_size()[1];
+    const auto& element = problem_.elements().element(place[0]);
+    const MaterialLaw<dim>& law = problem_.elements().materials().in_row(place[0]);
+    const auto nodes = s_.ring.sector().space.cell_nodes(boundary.cell);
+    std::vector<typename ElasticElement<dim>::Point> points;
+    for (const auto& q : boundary.rule) points.push_back(element.at(q.xi));
+    const Matrix strains = strain_maps<dim>(element, points);
+    Matrix u(s_.displacement.modes.rows(), element.n_dofs()), p = u;
+    gather(s_.ring, nodes, s_.displacement.modes, u);
+    const Matrix strain_u = product(u, Op::none, strains, Op::none);
+    const bool projected = element.projects_dilatation();
+    const Matrix dilatations =
+        projected ? dilatation_columns<dim>(element, boundary.material, points) : Matrix();
+
+    std::vector<std::vector<double>> densities;
+    for (size_t f = 0; f < functions_.size(); ++f) {
+      gather(s_.ring, nodes, adjoints_[f].modes, p);
+      const Matrix strain_p = product(p, Op::none, strains, Op::none);
+      densities.push_back(energy_and_work(functions_[f].energy, law, strain_u, strain_p));
+      for (size_t q = 0; q < points.size(); ++q)
+        densities[f][q] += loads_[f].density(points[q], law, angle, p);
+      if (projected) add_projection(functions_[f].energy, law, u, p, dilatations, densities[f]);
+      const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
+      if (!integrals.empty()) add_integrands(integrals, law, strain_u, densities[f]);
+    }
+    return densities;
+  }
+
+  /// [function][point] on the cell's edges in side faces.
+  std::vector<std::vector<double>> on_edges(const CellBoundary<dim>& boundary) const {
+    std::vector<std::vector<double>> densities(functions_.size());
+    if (boundary.edges.empty()) return densities;
+    const auto& element = problem_.elements().element(problem_.model().grid.cell_position(boundary.cell)[0]);
+    const auto nodes = s_.ring.sector().space.cell_nodes(boundary.cell);
+    Matrix p(s_.displacement.modes.rows(), element.n_dofs());
+    for (size_t f = 0; f < functions_.size(); ++f) {
+      gather(s_.ring, nodes, adjoints_[f].modes, p);
+      for (const auto& q : boundary.edges) {
+        const auto at = element.at(q.xi);
+        const auto surface = map_surface<dim>(at.jacobian, q.normal);
+        densities[f].push_back(loads_[f].edge_density(at, surface.normal[dim - 1], q.outward, p));
+      }
+    }
+    return densities;
+  }
+
+ private:
+  /// energy sigma(u):eps(u) / 2 + sigma(u):eps(p) from the strains of the modes at the points, one component
+  /// after the other.
+  std::vector<double> energy_and_work(const std::vector<double>& energy, const MaterialLaw<dim>& law,
+                                      const Matrix& strain_u, const Matrix& strain_p) const {
+    const int n_modes = strain_u.rows(), n_points = strain_u.columns() / n_strains<dim>;
+    const Matrix weighted =
+        energy.empty() ? Matrix(n_modes, strain_u.columns()) : energy_weighted(s_, energy, strain_u);
+    std::vector<double> densities(n_points, 0.0);
+    Matrix sigma(n_modes, n_strains<dim>);
+    for (int q = 0; q < n_points; ++q) {
+      const int first = n_strains<dim> * q;
+      law.stress(strain_columns<dim>(strain_u, first), stress_columns<dim>(sigma, 0));
+      for (int mode = 0; mode < n_modes; ++mode)
+        for (int k = 0; k < n_strains<dim>; ++k)
+          densities[q] += sigma(mode, k) * (strain_p(mode, first + k) + 0.5 * weighted(mode, first + k));
+    }
+    return densities;
+  }
+
+  /// The effect of the projection of div u in a cut cell on energy_and_work(), whose strains have the trace
+  /// t. The energy of the cell is the maximum, over linear pressures K q, of the integral of K (q div u - q^2
+  /// / 2) over its material, with K = lambda + 2 mu / dim. At the maximum q is the projection of div u, and
+  /// the derivative to the shape is that of the integral for this q: K (q_u div p + q_p div u - q_u q_p)
+  /// takes the place of K t_u t_p.
+  void add_projection(const std::vector<double>& energy, const MaterialLaw<dim>& law, const Matrix& u,
+                      const Matrix& p, const Matrix& dilatations, std::vector<double>& densities) const {
+    const Material& material = *law.isotropic();
+    const double bulk = material.lambda() + 2 * material.mu() / dim;
+    const Matrix of_u = product(u, Op::none, dilatations, Op::none);
+    Matrix of_p = product(p, Op::none, dilatations, Op::none);
+    if (!energy.empty()) {
+      const Matrix weighted = energy_weighted(s_, energy, of_u);
+      for (size_t i = 0; i < of_p.entries().size(); ++i) of_p.data()[i] += 0.5 * weighted.data()[i];
+    }
+    for (size_t q = 0; q < densities.size(); ++q) {
+      const int trace = 3 * static_cast<int>(q), dilatation = trace + 1, projected = trace + 2;
+      for (int mode = 0; mode < u.rows(); ++mode)
+        densities[q] +=
+            bulk *
+            (of_u(mode, projected) * of_p(mode, dilatation) + of_p(mode, projected) * of_u(mode, dilatation) -
+             of_u(mode, projected) * of_p(mode, projected) - of_u(mode, trace) * of_p(mode, trace));
+    }
+  }
+
+  void add_integrands(std::span<const typename FunctionalDerivative<dim>::Integral> integrals,
+                      const MaterialLaw<dim>& law, const Matrix& strain_u,
+                      std::vector<double>& densities) const {
+    const Matrix of_cases = product(s_.displacement.weights, Op::none, strain_u, Op::none);
+    for (int q = 0; q < static_cast<int>(densities.size()); ++q)
+      densities[q] += integrand<dim>(
+          s_, {strain_columns<dim>(of_cases, n_strains<dim> * q), s_.ring.n_sectors(), law}, integrals);
+  }
+
+  const RollingProblem<dim>& problem_;
+  const RollingSolution<dim>& s_;
+  std::span<const FunctionalDerivative<dim>> functions_;
+  std::span<const Adjoint> adjoints_;
+  std::vector<WorkOfLoads<dim>> loads_;  ///< of every function
+};
+
+using ByFunction = std::vector<std::vector<double>>;
+
+/// The densities in the cells of one cut cell, [function][point]. Where positions stand for their images too,
+/// both are the mean of what the positions give in the one and in the other.
+template <int dim, class InCell>
+ByFunction in_cells(const std::vector<CellBoundary<dim>>& cells, const InCell& in_cell) {
+  if (cells.empty()) return {};
+  ByFunction result = in_cell(cells[0]);
+  if (cells.size() == 1) return result;
+  const ByFunction images = in_cell(cells[1]);
+  for (size_t f = 0; f < result.size(); ++f) {
+    const size_t n = result[f].size();
+    for (size_t q = 0; q < n; ++q) result[f][q] = (result[f][q] + images[f][q]) / 2;
+    for (size_t q = 0; q < n; ++q) result[f].push_back(result[f][q]);
+  }
+  return result;
+}
+
+/// One cell's after the other.
+ByFunction joined(size_t n_functions, const std::vector<ByFunction>& of_cells) {
+  ByFunction all(n_functions);
+  for (const ByFunction& of_cell : of_cells)
+    for (size_t f = 0; f < of_cell.size(); ++f)
+      all[f].insert(all[f].end(), of_cell[f].begin(), of_cell[f].end());
+  return all;
+}
+
+/// By how much the cell's map stretches an edge, whose direction is across the axle's and the reference
+/// normal.
+double edge_stretch(const Mat<3>& jacobian, const Vec<3>& normal) {
+  const double in_face = std::hypot(normal[0], normal[1]);
+  const Vec<3> direction{-normal[1] / in_face, normal[0] / in_face, 0};
+  Vec<3> image{};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) image[i] += jacobian[i][k] * direction[k];
+  return norm<3>(image);
+}
+double edge_stretch(const Mat<2>&, const Vec<2>&) { return 1; }
+
+}  // namespace
+
+template <int dim>
+std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>& problem,
+                                               const RollingSolution<dim>& s) {
+  const PolarGrid<dim>& grid = s.domain.grid;
+  std::vector<SurfacePoint<dim>> points;
+  for (const CutCell<dim>& cut : s.domain.cut)
+    for (const auto& [cell, rule, material, edges] : cells_of(s, cut)) {
+      const auto place = grid.cell_position(cell);
+      const CellMap<dim> map(grid, problem.model().degree, place);
+      for (const auto& q : rule) {
+        const auto surface =
+            map_surface<dim>(map.jacobian(ShapeFunctions<dim>(problem.model().degree, q.xi)), q.normal);
+        points.push_back({cell, q.xi, rotated<dim>(surface.normal, place[1] * grid.cell_size()[1]),
+                          q.weight * surface.scale});
+      }
+    }
+  return points;
+}
+
+template <int dim>
+std::vector<SurfacePoint<dim>> edge_points(const RollingProblem<dim>& problem,
+                                           const RollingSolution<dim>& s) {
+  const PolarGrid<dim>& grid = s.domain.grid;
+  const int degree = problem.model().degree;
+  std::vector<SurfacePoint<dim>> points;
+  for (const CutCell<dim>& cut : s.domain.cut) {
+    if (cut.edges.empty()) continue;
+    for (const CellBoundary<dim>& of_cell : cells_of(s, cut)) {
+      const auto place = grid.cell_position(of_cell.cell);
+      const CellMap<dim> map(grid, degree, place);
+      for (const auto& q : of_cell.edges) {
+        const Mat<dim> jacobian = map.jacobian(ShapeFunctions<dim>(degree, q.xi));
+        points.push_back(
+            {of_cell.cell, q.xi,
+             rotated<dim>(map_surface<dim>(jacobian, q.normal).normal, place[1] * grid.cell_size()[1]),
+             q.weight * edge_stretch(jacobian, q.normal)});
+      }
+    }
+  }
+  return points;
+}
+
+template <int dim>
+ShapeGradients shape_gradients(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
+                               std::span<const FunctionalDerivative<dim>> functions,
+                               std::span<const Adjoint> adjoints) {
+  const Densities<dim> densities(problem, s, functions, adjoints);
+  std::vector<ByFunction> boundary(s.domain.cut.size()), edges(s.domain.cut.size());
+  parallel_for(static_cast<int>(s.domain.cut.size()), [&](int c) {
+    const auto cells = cells_of(s, s.domain.cut[c]);
+    boundary[c] = in_cells(cells, [&](const CellBoundary<dim>& cell) { return densities.in_cell(cell); });
+    edges[c] = in_cells(cells, [&](const CellBoundary<dim>& cell) { return densities.on_edges(cell); });
+  });
+  return {.densities = joined(functions.size(), boundary),
+          .edge_densities = joined(functions.size(), edges),
+          .phases = {}};
+}
+
+template decltype(boundary_points<2>) boundary_points<2>;
+template decltype(edge_points<2>) edge_points<2>;
+template decltype(shape_gradients<2>) shape_gradients<2>;
+template decltype(boundary_points<3>) boundary_points<3>;
+template decltype(edge_points<3>) edge_points<3>;
+template decltype(shape_gradients<3>) shape_gradients<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "wheelwright/mechanics/state/ground_frame.h"
+#include "wheelwright/mechanics/state/rim.h"
+
+namespace wheelwright {
+
+/// The contact at one load position: the action of the ground on the wheel near the contact point. Vectors
+/// are in the ground frame: component 0 along n_y, towards the ground, 1 along it.
+template <int dim>
+struct ContactPatch {
+  /// A contact quadrature point of the tread.
+  struct Point {
+    int column;          ///< of the ring
+    int point;           ///< of the column (TreadSurface::points)
+    GroundFrame frame;   ///< turns components in the column's frame into the ground frame
+    Vec<dim> position;   ///< relative to the axle [m]
+    double gap;          ///< g (9) [m]
+    double weight;       ///< dS [m, or m^2 when dim = 3]
+    Vec<dim> augmented;  ///< z = tau sigma(u)n - gamma (u - g n_y) [Pa]; in contact where z_0 < 0
+    Vec<dim> traction;   ///< Phi(z) of (18), (23): the ground's traction on the wheel [Pa]
+  };
+
+  std::vector<Point> points;  ///< ascending along the ground, column by column
+  RimMotion rim;
+  RimForce rim_force;     ///< on the rim: its load, and the reaction in motions that are not free
+  int newton_iterations;  ///< of all attempts
+  /// By how much rotation without load lifts the rim: the rotating wheel without load touches the ground
+  /// where the rim has moved towards it by -growth [m].
+  double growth = 0;
+
+  /// Travel of the rim towards the ground, from where the rotating wheel without load touches it [m].
+  double travel() const { return rim.towards_ground + growth; }
+};
+
+}  // namespace wheelwright

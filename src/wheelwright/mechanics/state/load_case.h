@@ -1,0 +1,69 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/mechanics/state/state.h"
+
+namespace wheelwright {
+
+/// One of the loads under which every shape is solved.
+template <int dim>
+struct LoadCase {
+  std::string name;
+  RollingModel<dim> model;  ///< differs from the solver's only in its loads
+};
+
+/// The load cases of a problem: the first has the load of the solver's own model. Empty: only that load.
+template <int dim>
+using LoadCases = std::vector<LoadCase<dim>>;
+
+/// The states of one shape, one for every load case.
+template <int dim>
+using StatesOfCases = std::vector<std::shared_ptr<const State<dim>>>;
+
+/// The name of what is computed under a load case: numbers of the first one have no addition.
+template <int dim>
+std::string name_in_case(std::string name, const LoadCases<dim>& cases, int load_case) {
+  return load_case == 0 ? name : std::move(name) + " in " + cases[load_case].name;
+}
+
+/// A model with the loads of another one.
+template <int dim>
+RollingModel<dim> with_loads_of(RollingModel<dim> model, const RollingModel<dim>& loads) {
+  model.load = loads.load;
+  model.horizontal_force = loads.horizontal_force;
+  model.lateral_force = loads.lateral_force;
+  model.torque = loads.torque;
+  model.travel = loads.travel;
+  model.distributed = loads.distributed;
+  return model;
+}
+
+/// The positions that determine all others: one of each mirror-image pair, if the shape and all loads are
+/// their own mirror image.
+template <int dim>
+LoadPositions distinct_positions(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+                                 const LevelSet<dim>& psi) {
+  for (const auto& load_case : cases)
+    if (!is_mirror_symmetric(load_case.model)) return solver.all_positions();
+  return solver.distinct_positions(psi);
+}
+
+/// The states of a shape under all load cases, with one factorization. Fails as StateSolver::states() does.
+template <int dim>
+Expected<StatesOfCases<dim>> states_of_cases(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+                                             const CutShape<dim>& shape, LoadPositions positions,
+                                             const Interrupt& interrupt) {
+  auto first = solver.states(shape, std::move(positions), interrupt);
+  if (!first) return first.failure();
+  StatesOfCases<dim> states{*std::move(first)};
+  for (std::size_t k = 1; k < cases.size(); ++k) {
+    auto next = states.front()->under(cases[k].model, interrupt);
+    if (!next) return next.failure();
+    states.push_back(*std::move(next));
+  }
+  return states;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "wheelwright/mechanics/state/state.h"
+
+namespace wheelwright {
+
+/// int M(u_i) dx over the material of the whole ring, tread included, of every position that was solved for.
+/// With MaterialRule's points and the strains of Displacement::strains().
+template <int dim>
+std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
+                                      const MaterialDensity<dim>& density);
+
+/// The points of the same quadrature in one cell.
+template <int dim>
+struct StrainedCell {
+  std::vector<double> weights;  ///< of the points [m^2, or m^3 when dim = 3]
+  Matrix strains;               ///< one row per load case, n_strains columns per point
+  int n_sectors;
+  const MaterialLaw<dim>& law;
+
+  int n_points() const { return static_cast<int>(weights.size()); }
+  StrainsAtPoint<dim> at(int point) const {
+    return {strain_columns<dim>(strains, n_strains<dim> * point), n_sectors, law};
+  }
+};
+
+/// Calls visit(cell) for every cell with material in the rows that the density covers.
+template <int dim>
+void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
+                   const MaterialDensity<dim>& covered,
+                   const std::function<void(const StrainedCell<dim>&)>& visit);
+
+/// Strains at points of a cell in the layout of Displacement::strains(), one row per load case.
+Matrix by_load_case(const Matrix& strains);
+
+}  // namespace wheelwright

@@ -1,0 +1,159 @@
+#include "wheelwright/mechanics/state/strain_peaks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "wheelwright/base/parallel.h"
+
+namespace wheelwright {
+namespace {
+
+/// The squared peaks of some cells: of the von Mises stress, and of the largest principal strain.
+template <int dim>
+struct SquaredPeaks {
+  explicit SquaredPeaks(int n_positions)
+      : von_mises(n_positions, 0.0), places(n_positions, Vec<dim>{}), principal(n_positions, 0.0) {}
+
+  void add(const SquaredPeaks& other) {
+    for (size_t i = 0; i < von_mises.size(); ++i) {
+      if (other.von_mises[i] > von_mises[i]) {
+        von_mises[i] = other.von_mises[i];
+        places[i] = other.places[i];
+      }
+      principal[i] = std::max(principal[i], other.principal[i]);
+    }
+  }
+
+  std::vector<double> von_mises;
+  std::vector<Vec<dim>> places;
+  std::vector<double> principal;
+};
+
+/// Compares squares first: computes roots only if the current peak may be exceeded.
+template <int dim>
+double larger_squared_principal(double so_far, const Voigt<dim>& strain, double axial) {
+  double square = 0;
+  for (int k = 0; k < dim; ++k) square += strain[k] * strain[k];
+  for (int k = dim; k < n_strains<dim>; ++k) square += 0.5 * strain[k] * strain[k];
+  if (std::max(square, axial * axial) <= so_far) return so_far;  // e_1^2 <= e:e
+  for (const double e : principal_strains<dim>(strain.data(), axial)) so_far = std::max(so_far, e * e);
+  return so_far;
+}
+
+/// Strains of all load cases and points of a cell as in Displacement::strains(), one row per load case and
+/// point in it, one column per component.
+template <int dim>
+Matrix strains_by_component(const Matrix& strains) {
+  const int n_points = strains.rows() / n_strains<dim>;
+  Matrix result(strains.columns() * n_points, n_strains<dim>);
+  for (int j = 0; j < strains.columns(); ++j)
+    for (int q = 0; q < n_points; ++q)
+      for (int k = 0; k < n_strains<dim>; ++k)
+        result(j * n_points + q, k) = strains(q * n_strains<dim> + k, j);
+  return result;
+}
+
+template <int dim>
+Vec<dim> place_in_body(const PolarGrid<dim>& grid, int cell, const Vec<dim>& xi, int sector) {
+  const auto position = grid.cell_position(cell);
+  const Vec<dim> size = grid.cell_size();
+  Vec<dim> place;
+  for (int d = 0; d < dim; ++d) place[d] = (position[d] + xi[d]) * size[d];
+  place[0] += grid.inner_radius;
+  place[1] += sector * grid.sector_angle();
+  return place;
+}
+
+/// One cell in all positions and sectors.
+template <int dim>
+void add_cell(const StateSolver<dim>& solver, const Displacement<dim>& displacement, int cell,
+              const std::vector<Vec<dim>>& points, SquaredPeaks<dim>& peaks) {
+  const PolarGrid<dim>& grid = solver.model().grid;
+  const MaterialLaw<dim>& law = solver.model().materials.in_row(grid.cell_position(cell)[0]);
+  const Matrix strains = strains_by_component<dim>(displacement.strains(cell, points));
+  const auto columns = strain_columns<dim>(strains, 0);
+  std::vector<double> squares(strains.rows()), axial_stresses(dim == 2 ? strains.rows() : 0),
+      axial_strains(strains.rows());
+  law.squared_von_mises(columns, squares);
+  if (dim == 2) law.along_axle(columns, axial_stresses, axial_strains);
+  for (int i = 0; i < strains.rows(); ++i) {
+    const int n_points = static_cast<int>(points.size()), load_case = i / n_points,
+              position = load_case / grid.n_sectors;
+    if (squares[i] > peaks.von_mises[position]) {
+      peaks.von_mises[position] = squares[i];
+      peaks.places[position] =
+          place_in_body<dim>(grid, cell, points[i % n_points], load_case % grid.n_sectors);
+    }
+    Voigt<dim> strain;
+    for (int k = 0; k < n_strains<dim>; ++k) strain[k] = strains(i, k);
+    peaks.principal[position] =
+        larger_squared_principal<dim>(peaks.principal[position], strain, axial_strains[i]);
+  }
+}
+
+/// The quadrature points of the cells with material, by cell; empty for the others.
+template <int dim>
+std::vector<std::vector<Vec<dim>>> material_points(const CutDomain<dim>& domain, int degree) {
+  std::vector<std::vector<Vec<dim>>> result(domain.grid.n_cells());
+  const auto full = unit_cell_rule<dim>(degree + 1);
+  auto cut = domain.cut.begin();
+  for (int cell = 0; cell < domain.grid.n_cells(); ++cell) {
+    const bool is_cut = cut != domain.cut.end() && cut->cell == cell;
+    const std::span<const ReferencePoint<dim>> points = is_cut ? (cut++)->material : full;
+    if (!domain.active(cell)) continue;
+    for (const auto& point : points) result[cell].push_back(point.xi);
+  }
+  return result;
+}
+
+}  // namespace
+
+template <>
+std::array<double, 3> principal_strains<2>(const double* strain, double axial_strain) {
+  const double mean = 0.5 * (strain[0] + strain[1]);
+  const double radius = 0.5 * std::hypot(strain[0] - strain[1], strain[2]);
+  return {mean + radius, mean - radius, axial_strain};
+}
+
+/// The eigenvalues of a symmetric 3 x 3 matrix by the cosine of a third of an angle.
+template <>
+std::array<double, 3> principal_strains<3>(const double* strain, double) {
+  const double mean = (strain[0] + strain[1] + strain[2]) / 3;
+  const double a = strain[0] - mean, b = strain[1] - mean, c = strain[2] - mean;
+  const double d = 0.5 * strain[3], e = 0.5 * strain[4], f = 0.5 * strain[5];
+  const double radius = std::sqrt((a * a + b * b + c * c + 2 * (d * d + e * e + f * f)) / 6);
+  if (radius == 0) return {mean, mean, mean};
+  const double determinant = a * b * c + 2 * d * e * f - a * d * d - b * e * e - c * f * f;
+  const double angle = std::acos(std::clamp(determinant / (2 * radius * radius * radius), -1.0, 1.0)) / 3;
+  constexpr double third = 2 * std::numbers::pi / 3;
+  return {mean + 2 * radius * std::cos(angle), mean + 2 * radius * std::cos(angle - third),
+          mean + 2 * radius * std::cos(angle + third)};
+}
+
+template <int dim>
+StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state) {
+  const Displacement<dim>& displacement = state.displacement();
+  const PolarGrid<dim>& grid = solver.model().grid;
+  const int n_positions = state.positions().size();
+  const auto points = material_points(state.domain(), solver.model().degree);
+  std::vector<SquaredPeaks<dim>> of_column(grid.columns(), SquaredPeaks<dim>(n_positions));
+  const int cells_per_column = grid.n_cells() / grid.columns();
+  parallel_for(grid.columns(), [&](int column) {
+    for (int k = 0; k < cells_per_column; ++k) {
+      const int cell = column * cells_per_column + k;
+      if (!points[cell].empty()) add_cell<dim>(solver, displacement, cell, points[cell], of_column[column]);
+    }
+  });
+  SquaredPeaks<dim> all(n_positions);
+  for (const auto& peaks : of_column) all.add(peaks);
+  for (double& square : all.von_mises) square = std::sqrt(square);
+  for (double& square : all.principal) square = std::sqrt(square);
+  return {std::move(all.von_mises), std::move(all.places), std::move(all.principal)};
+}
+
+template decltype(strain_peaks<2>) strain_peaks<2>;
+template decltype(strain_peaks<3>) strain_peaks<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "wheelwright/mechanics/state/functional_derivative.h"
+
+namespace wheelwright {
+
+/// A point of the material, in a cell that is full of it.
+template <int dim>
+struct MaterialPoint {
+  int cell;     ///< of the sector's grid
+  Vec<dim> xi;  ///< position in the unit cell
+};
+
+/// sigma(p) : A eps(u): the work of the adjoint stress on the strain of a small round hole without traction
+/// (strain_of_hole()), per its area, or volume when dim = 3.
+template <int dim>
+double work_on_small_hole(const Material& material, const Voigt<dim>& strain_u, const Voigt<dim>& strain_p);
+
+/// The change of the sum over load cases j of factor_j int M_j dx by a small round traction-free hole, in
+/// addition to the contribution of the adjoint problem, per area of the hole: the integral of M(eps + e) -
+/// M(eps) - M'(eps) e round the hole, with e = what the hole adds to the strain, less M(eps) and M'(eps) (A
+/// eps - eps) of the hole itself (Amstutz and Novotny 2010, for any density). The law must be isotropic.
+double removed_density(const MaterialDensity<2>& density, const StrainsAtPoint<2>& point,
+                       std::span<const double> factors);
+
+}  // namespace wheelwright

@@ -1,0 +1,280 @@
+#include "wheelwright/optimization/optimizer/sequential_quadratic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace wheelwright {
+namespace {
+
+using Nodal = std::vector<double>;
+
+void add(double factor, const Nodal& a, Nodal& to) {
+  for (size_t i = 0; i < to.size(); ++i) to[i] += factor * a[i];
+}
+
+Nodal combination(const std::vector<double>& coefficients, const std::vector<Nodal>& vectors) {
+  Nodal sum(vectors.front().size(), 0.0);
+  for (size_t i = 0; i < vectors.size(); ++i) add(coefficients[i], vectors[i], sum);
+  return sum;
+}
+
+double product(const Nodal& load, const Nodal& deformation) {
+  return std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
+}
+
+Nodal scaled(Nodal values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+/// The derivatives of the objective, of the measure, and of the constraints, as loads.
+template <int dim>
+std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const LevelSet<dim>& shape,
+                         const Evaluation<dim>& evaluation, const std::string& objective,
+                         const std::vector<BoundConstraint>& constraints) {
+  const auto load_of = [&](const FunctionValue& function, double factor) {
+    Nodal load = motion.load(scaled(function.gradient, factor));
+    const auto is_zero = [](double density) { return density == 0; };
+    if (!std::ranges::all_of(function.edge_gradient, is_zero))
+      add(1, motion.on(shape, evaluation.edges).load(scaled(function.edge_gradient, factor)), load);
+    return load;
+  };
+  std::vector<Nodal> result{load_of(evaluation.function(objective), 1),
+                            motion.load(std::vector<double>(evaluation.boundary.size(), 1.0))};
+  for (const auto& c : constraints) result.push_back(load_of(evaluation.functions[c.function], 1 / c.scale));
+  return result;
+}
+
+/// The largest accepted objective is the best one so far, increased by the noise, or the last one if that is
+/// larger. Before the final widths, a web thinner than a cell makes the objective jump when it breaks,
+/// however small the step: then it may also be the one before the last (the nonmonotone descent of Grippo,
+/// Lampariello and Lucidi 1986), which leads past the jump.
+template <int dim>
+double largest_objective(const OptimizerOptions& options, const OptimizationState<dim>& state, double noise) {
+  const auto& history = state.history;
+  const double best = std::ranges::min_element(history, {}, &AcceptedShape::objective)->objective,
+               largest = std::max(best + noise, history.back().objective);
+  const bool may_jump = options.final_widths.any() && state.final_widths == FinalWidths::not_yet;
+  return may_jump && history.size() >= 2 ? std::max(largest, history[history.size() - 2].objective) : largest;
+}
+
+}  // namespace
+
+template <int dim>
+Matrix SequentialQuadraticProposals<dim>::Span::products() const {
+  const int n = static_cast<int>(loads.size()), n_known = known.rows(), first_known = n - n_known;
+  Matrix result(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i <= j; ++i)
+      result(i, j) = result(j, i) =
+          i < first_known ? product(loads[i], deformations[j]) : known(i - first_known, j - first_known);
+  return result;
+}
+
+template <int dim>
+SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<dim>& evolver,
+                                                                const OptimizerOptions& options,
+                                                                const OptimizationState<dim>& state)
+    : evolver_(evolver),
+      options_(options),
+      state_(state),
+      constraints_(bound_constraints(state.evaluation)),
+      widths_(narrow_widths(state.shape, widths_after(evolver.features(), options, state),
+                            2 * state.step * state.shape.lattice.grid().resolution())),
+      motion_(evolver.deformations().motion_of(state.shape, state.evaluation.boundary)) {
+  const auto& space = evolver_.deformations();
+  for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.move);
+  for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.change);
+  for (const auto& deformation : pairs_.deformations) pairs_.loads.push_back(space.load(deformation));
+  pairs_.known = pairs_.products();
+}
+
+/// The derivatives under this motion, and the pairs.
+template <int dim>
+typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_of(
+    const BoundaryMotion<dim>& motion) const {
+  const auto& space = evolver_.deformations();
+  Span span{.deformations = {},
+            .loads = loads(motion, state_.shape, state_.evaluation, options_.objective, constraints_),
+            .known = pairs_.known};
+  for (const auto& width : widths_) span.loads.push_back(gap_load(motion, width));
+  for (const auto& load : span.loads) span.deformations.push_back(space.representative(load));
+  span.loads.insert(span.loads.end(), pairs_.loads.begin(), pairs_.loads.end());
+  span.deformations.insert(span.deformations.end(), pairs_.deformations.begin(), pairs_.deformations.end());
+  return span;
+}
+
+/// Holds the coefficients that would move into a band: repeats the search for the move without them until no
+/// others must be held.
+template <int dim>
+Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
+  constexpr int max_turns = 5;
+  std::vector<bool> held(state_.shape.values.size(), false);
+  const double resolution = state_.shape.lattice.grid().resolution();
+  const auto hold_more = [&](const Move<dim>& move) {
+    return evolver_.hold_at_bands(motion_.coefficients(), move.velocity, move.distance * resolution, held);
+  };
+  auto move = move_with(held, step);
+  for (int turn = 0; turn < max_turns && hold_more(move); ++turn) move = move_with(held, step);
+  if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
+  return move;
+}
+
+template <int dim>
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held, double step) const {
+  const double measure = next_measure(options_, state_, step);
+  const auto motion = motion_.holding(held);
+  const Span span = span_of(motion);
+  auto penalties = this->penalties();
+  const auto found = step_in(motion, span, state_.measure - measure, step, penalties);
+  auto deformation = combination(found.coefficients, span.deformations);
+  auto velocity = motion.speeds_at_nodes(deformation);
+  const double resolution = state_.shape.lattice.grid().resolution();
+  const double distance = largest_magnitude(velocity) / resolution,
+               farthest = largest_magnitude(motion.speeds(deformation));
+  return {.velocity = std::move(velocity),
+          .deformation = std::move(deformation),
+          .distance = distance,
+          .step = farthest / resolution,
+          .radius = step,
+          .measure = measure,
+          .objective_change = found.slope,
+          .model_decrease = found.decrease,
+          .multipliers = {found.multipliers.begin(),
+                          found.multipliers.end() - static_cast<std::ptrdiff_t>(widths_.size())},
+          .penalties = penalties};
+}
+
+/// Raises penalties until the linearized violation decreases by at least half of its possible decrease.
+template <int dim>
+QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<dim>& motion, const Span& span,
+                                                         double gap, double step,
+                                                         std::vector<double>& penalties) const {
+  constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9, comes_first = 10;
+  constexpr int max_raises = 10;
+  const int n_pairs = static_cast<int>(state_.memory.pairs.size());
+  QuadraticModel model{.products = span.products(),
+                       .constraints = {},
+                       .first_move = static_cast<int>(span.loads.size()) - 2 * n_pairs,
+                       .n_pairs = n_pairs};
+  if (options_.measure_control == MeasureControl::exact && model.products(1, 1) > 0)
+    model.constraints.push_back({.vector = 1, .sign = 1, .gap = gap, .is_equality = true});
+  const size_t first = model.constraints.size();
+  for (size_t i = 0; i < constraints_.size(); ++i)
+    model.constraints.push_back({.vector = static_cast<int>(2 + i),
+                                 .sign = constraints_[i].sign,
+                                 .gap = constraints_[i].gap,
+                                 .is_equality = constraints_[i].is_equality});
+  const double of_widths = comes_first * std::abs(state_.evaluation.function(options_.objective).value);
+  for (size_t k = 0; k < widths_.size(); ++k)
+    model.constraints.push_back({.vector = static_cast<int>(2 + constraints_.size() + k),
+                                 .sign = 1,
+                                 .gap = widths_[k].gap(),
+                                 .is_equality = false,
+                                 .penalty = of_widths,
+                                 .is_in_merit = false});
+  std::vector<std::vector<double>> at_boundary;
+  for (const auto& deformation : span.deformations) at_boundary.push_back(motion.speeds(deformation));
+  const auto with = [&](double factor) {
+    for (size_t i = 0; i < penalties.size(); ++i)
+      model.constraints[first + i].penalty = factor * penalties[i];
+    return trust_region_step(
+        model, step * state_.shape.lattice.grid().resolution(),
+        [&](const std::vector<double>& d) { return largest_magnitude(combination(d, at_boundary)); });
+  };
+  const auto total = [&](const QuadraticStep& s) {
+    const auto begin = s.violations.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(constraints_.size()), 0.0);
+  };
+  double now = 0;
+  for (const auto& c : constraints_) now += c.violation();
+  auto found = with(1);
+  if (constraints_.empty() || total(found) <= small) return found;
+  const double minimum = total(with(beyond));
+  for (int k = 0; k < max_raises && now - total(found) < enough * (now - minimum) - small; ++k) {
+    for (size_t i = 0; i < penalties.size(); ++i)
+      if (found.violations[first + i] > 0) penalties[i] *= raise;
+    found = with(1);
+  }
+  return found;
+}
+
+/// Initially a violation of one percent costs as much as one percent of the objective.
+template <int dim>
+std::vector<double> SequentialQuadraticProposals<dim>::penalties() const {
+  if (state_.memory.penalties.size() == constraints_.size()) return state_.memory.penalties;
+  return std::vector<double>(constraints_.size(),
+                             std::abs(state_.evaluation.function(options_.objective).value));
+}
+
+/// The noise of the objective, from details of the cut cells.
+template <int dim>
+double SequentialQuadraticProposals<dim>::noise() const {
+  return options_.accepted_increase * std::abs(state_.evaluation.function(options_.objective).value);
+}
+
+template <int dim>
+bool SequentialQuadraticProposals<dim>::accepts(const Move<dim>& move,
+                                                const Evaluation<dim>& evaluation) const {
+  if (is_approaching(options_, state_)) return true;
+  const double objective = evaluation.function(options_.objective).value;
+  if (constraints_.empty()) return objective <= largest_objective(options_, state_, noise());
+  const double before =
+      merit(state_.evaluation.function(options_.objective).value, constraints_, move.penalties);
+  return merit(objective, bound_constraints(evaluation), move.penalties) <= before + noise();
+}
+
+template <int dim>
+double SequentialQuadraticProposals<dim>::next_step(const Move<dim>& move,
+                                                    const Evaluation<dim>& evaluation) const {
+  constexpr double poor = 0.25, good = 0.75, shrink = 0.5, grow = 2, near = 0.8;
+  const double minimum = std::ldexp(options_.step, -options_.max_halvings);
+  const auto merit_of = [&](const Evaluation<dim>& e) {
+    return merit(e.function(options_.objective).value, bound_constraints(e), move.penalties);
+  };
+  const double quality =
+      (merit_of(state_.evaluation) - merit_of(evaluation) + noise()) / (move.model_decrease + noise());
+  double next = move.radius;
+  if (!is_approaching(options_, state_) && quality < poor)
+    next = shrink * move.step;
+  else if (quality > good && move.step >= near * move.radius)
+    next = grow * move.radius;
+  return std::clamp(next, minimum, options_.step);
+}
+
+/// The pair of the move and the change of the Lagrangian's derivative.
+template <int dim>
+StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, const LevelSet<dim>& shape,
+                                                         const Evaluation<dim>& evaluation) const {
+  StepMemory memory = state_.memory;
+  memory.penalties = move.penalties;
+  memory.multipliers.assign(move.multipliers.end() - static_cast<std::ptrdiff_t>(constraints_.size()),
+                            move.multipliers.end());
+  const auto& space = evolver_.deformations();
+  const double unit = 1 / largest_magnitude(move.deformation);
+  CurvaturePair pair{.move = move.deformation, .change = {}};
+  Nodal change(move.deformation.size(), 0.0);
+  for (double& v : pair.move) v *= unit;
+  std::vector<double> weights{1.0};
+  if (move.multipliers.size() == constraints_.size()) weights.push_back(0);  // the measure is free
+  for (const double m : move.multipliers) weights.push_back(m);
+  for (size_t i = 0; i < constraints_.size(); ++i) weights[2 + i] *= constraints_[i].sign;
+  const auto add_loads = [&](double factor, const BoundaryMotion<dim>& motion, const LevelSet<dim>& psi,
+                             const Evaluation<dim>& e) {
+    const auto derivatives = loads(motion, psi, e, options_.objective, constraints_);
+    for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], change);
+  };
+  add_loads(unit, space.motion_of(shape, evaluation.boundary), shape, evaluation);
+  add_loads(-unit, motion_, state_.shape, state_.evaluation);
+  pair.change = space.representative(change);
+  const double move_square = product(space.load(pair.move), pair.move),
+               move_change = product(change, pair.move), change_square = product(change, pair.change);
+  remember(std::move(pair), move_square, move_change, change_square, memory.pairs);
+  return memory;
+}
+
+template class SequentialQuadraticProposals<2>;
+template class SequentialQuadraticProposals<3>;
+
+}  // namespace wheelwright

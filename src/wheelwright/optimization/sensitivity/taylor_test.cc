@@ -1,0 +1,90 @@
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+
+#include <cmath>
+
+#include "wheelwright/shape/geometry/cell_map.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+LevelSet<dim> moved(const LevelSet<dim>& psi, std::span<const double> direction, double t) {
+  LevelSet<dim> result = psi;
+  for (size_t i = 0; i < direction.size(); ++i) result.values[i] += t * direction[i];
+  return result;
+}
+
+}  // namespace
+
+template <int dim>
+double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, const LevelSet<dim>& psi,
+                              std::span<const double> direction, int map_degree) {
+  const PolarGrid<dim>& grid = psi.lattice.grid();
+  const int degree = psi.lattice.degree();
+  const LevelSet<dim> change{psi.lattice, {direction.begin(), direction.end()}};
+  double sum = 0;
+  for (const SurfaceSample<dim>& sample : gradient) {
+    const ShapeFunctions<dim> shape(degree, sample.xi);
+    const CellMap<dim> map(grid, map_degree, grid.cell_position(sample.cell));
+    const Mat<dim> to_physical = inverse<dim>(map.jacobian(ShapeFunctions<dim>(map_degree, sample.xi)));
+    const auto values = psi.cell_values(sample.cell), changes = change.cell_values(sample.cell);
+    Vec<dim> slope{};
+    double rate = 0;
+    for (size_t a = 0; a < values.size(); ++a) {
+      rate += shape.value[a] * changes[a];
+      slope += values[a] * transpose_times<dim>(to_physical, shape.gradient[a]);
+    }
+    sum -= sample.weight * sample.value * rate / norm<dim>(slope);
+  }
+  return sum;
+}
+
+template <int dim>
+Expected<std::vector<TaylorTest>> taylor_tests(
+    const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate,
+    const Evaluation<dim>& start, const LevelSet<dim>& psi, std::span<const double> direction, int map_degree,
+    double step, int halvings) {
+  std::vector<TaylorTest> tests;
+  for (const FunctionValue& function : start.functions)
+    tests.push_back(
+        {.value = function.value,
+         .derivative = directional_derivative(start.gradient(function.name), psi, direction, map_degree) +
+                       directional_derivative(start.edge_gradient(function.name), psi, direction, map_degree),
+         .steps = {},
+         .remainders = {},
+         .orders = {}});
+  for (int k = 0; k <= halvings; ++k) {
+    const double t = step * std::pow(0.5, k);
+    const auto trial = evaluate(moved(psi, direction, t));
+    if (!trial) return trial.failure();
+    for (size_t i = 0; i < tests.size(); ++i) {
+      TaylorTest& test = tests[i];
+      test.steps.push_back(t);
+      test.remainders.push_back(std::abs(trial->functions[i].value - test.value - t * test.derivative));
+      if (k > 0) test.orders.push_back(std::log2(test.remainders[k - 1] / test.remainders[k]));
+    }
+  }
+  return tests;
+}
+
+template <int dim>
+Expected<TaylorTest> taylor_test(
+    const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate, const LevelSet<dim>& psi,
+    std::span<const double> direction, int map_degree, double step, int halvings, std::string_view name) {
+  const auto start = evaluate(psi);
+  if (!start) return start.failure();
+  const auto tests = taylor_tests<dim>(evaluate, *start, psi, direction, map_degree, step, halvings);
+  if (!tests) return tests.failure();
+  for (size_t i = 0; i < tests->size(); ++i)
+    if (start->functions[i].name == name) return (*tests)[i];
+  return Failure{FailureReason::unsupported_model, "there is no function named " + std::string(name)};
+}
+
+template decltype(directional_derivative<2>) directional_derivative<2>;
+template decltype(taylor_tests<2>) taylor_tests<2>;
+template decltype(taylor_test<2>) taylor_test<2>;
+template decltype(directional_derivative<3>) directional_derivative<3>;
+template decltype(taylor_tests<3>) taylor_tests<3>;
+template decltype(taylor_test<3>) taylor_test<3>;
+
+}  // namespace wheelwright

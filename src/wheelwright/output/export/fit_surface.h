@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "wheelwright/base/expected.h"
+#include "wheelwright/output/export/wheel_model.h"
+#include "wheelwright/shape/surface/check_surface.h"
+
+namespace wheelwright {
+
+/// A surface within a tolerance, and its measurements.
+struct FittedSurface {
+  SurfaceMesh surface;
+  int parts;             ///< of every cell along each axis
+  SurfaceReport report;  ///< of the numbers as written to files; volume in mm^3
+  double deviation;      ///< of the holes from {psi = 0} [m]
+  Vec<3> place;          ///< where that is: (radius, azimuth, axial)
+  double volume_error;   ///< relative, against the level set's volume
+};
+
+/// Why there is no surface, in a sentence.
+struct SurfaceRefusal {
+  std::string what;
+};
+
+/// The surface of a shape with the fewest cubes per cell, at most 8 along each axis, that keep the surface of
+/// the holes within `tolerance` [m] of {psi = 0}, on isoparametric cells of degree `map_degree`. Refused if
+/// no number suffices, if the surface does not bound a solid, if its volume differs from the level set's by
+/// more than 0.1 %, or if there is no material.
+Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int map_degree, double tolerance);
+
+/// As readable lines.
+std::string text(const FittedSurface& surface);
+
+}  // namespace wheelwright

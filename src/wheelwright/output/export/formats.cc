@@ -1,0 +1,51 @@
+#include "wheelwright/output/export/formats.h"
+
+#include <algorithm>
+
+#include "wheelwright/output/export/dxf.h"
+#include "wheelwright/output/export/extrusion.h"
+#include "wheelwright/output/export/plugin.h"
+#include "wheelwright/output/export/png.h"
+#include "wheelwright/output/export/stl.h"
+#include "wheelwright/output/export/svg_outline.h"
+#include "wheelwright/output/export/vtu_shape.h"
+
+namespace wheelwright {
+namespace {
+
+SolidModel solid(const WheelModel& wheel) { return {wheel.title, wheel.program, solid_mesh(wheel)}; }
+SolidModel solid(const SurfaceModel& wheel) {
+  return {wheel.title, wheel.program, solid_mesh(wheel.surface)};
+}
+
+template <class Model>
+std::string stl_of(const Model& wheel) {
+  return stl(solid(wheel));
+}
+template <class Model>
+std::string three_mf(const Model& wheel) {
+  return plugin_file("3mf", "lib3mf-dev", solid(wheel));
+}
+std::string step(const WheelModel& wheel) { return plugin_file("step", "libocct-data-exchange-dev", wheel); }
+
+constexpr ExportFormat formats[] = {
+    {"dxf", "outline, curves in layers", dxf, nullptr},
+    {"svg", "outline at true scale", svg_outline, nullptr},
+    {"stl", "solid, triangles", stl_of<WheelModel>, stl_of<SurfaceModel>},
+    {"3mf", "solid, triangles with unit", three_mf<WheelModel>, three_mf<SurfaceModel>},
+    {"step", "solid, exact faces", step, nullptr},
+    {"vtu", "shape for ParaView", vtu_shape, vtu_shape},
+    {"vtp", "surface for ParaView", nullptr, vtp_surface},
+    {"png", "picture", png, png},
+};
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() { return formats; }
+
+const ExportFormat* find_export_format(std::string_view name) {
+  const auto found = std::ranges::find(formats, name, &ExportFormat::name);
+  return found == std::end(formats) ? nullptr : found;
+}
+
+}  // namespace wheelwright

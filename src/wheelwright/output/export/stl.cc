@@ -1,0 +1,9 @@
+#include "wheelwright/output/export/stl.h"
+
+namespace wheelwright {
+
+std::string stl(const SolidModel& solid) {
+  return stl_file(solid.mesh, solid.program + ", millimetres: " + solid.title);
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,56 @@
+#include "wheelwright/output/export/svg_outline.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/output/report/svg.h"
+
+namespace wheelwright {
+namespace {
+
+/// Arcs deviate by at most this fraction of the tolerance.
+constexpr double share_of_arcs = 0.1;
+
+std::string point(const Vec<2>& p) {
+  return fmt::format("{:.10g} {:.10g}", p[0] * millimetres_per_metre, -p[1] * millimetres_per_metre);
+}
+
+/// Some programs draw every cubic with a fixed number of chords, whatever its length: these must suffice.
+int n_parts(const Bezier& cubic, double tolerance) {
+  constexpr int chords_of_others = 16;
+  return (n_chords(cubic, tolerance) + chords_of_others - 1) / chords_of_others;
+}
+
+std::string subpath(const cad::Loop& loop, double tolerance) {
+  std::string path = fmt::format("M{}", point(start_of(loop.curves.front())));
+  for (const cad::Curve& curve : loop.curves) {
+    if (std::holds_alternative<cad::Line>(curve)) {
+      path += fmt::format("\nL{}", point(end_of(curve)));
+      continue;
+    }
+    for (const Bezier& cubic : beziers(curve, share_of_arcs * tolerance))
+      for (const Bezier& p : divided(cubic, n_parts(cubic, tolerance)))
+        path += fmt::format("\nC{} {} {}", point(p[1]), point(p[2]), point(p[3]));
+  }
+  return path + "Z";
+}
+
+}  // namespace
+
+std::string svg_outline(const WheelModel& wheel) {
+  const auto& edge = std::get<cad::Arc>(wheel.outline.loops.front().curves.front());
+  const double half = edge.radius * millimetres_per_metre;
+  std::string path;
+  for (const cad::Loop& loop : wheel.outline.loops)
+    path += fmt::format("{}\n", subpath(loop, wheel.tolerance));
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{0:.6g}mm\" "
+      "viewBox=\"0 0 {0:.6g} {0:.6g}\">\n"
+      "<title>{2}</title>\n<desc>{3}; millimetres</desc>\n"
+      "<g id=\"wheel\" transform=\"translate({1:.6g} {1:.6g})\" fill=\"#3b6ea5\" fill-rule=\"evenodd\" "
+      "stroke=\"none\">\n"
+      "<path id=\"material\" d=\"{4}\"/>\n</g>\n</svg>\n",
+      2 * half, half, escape_xml(wheel.title), escape_xml(wheel.program), path);
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,51 @@
+"use strict";
+// Numbers as the pages show them. Without a browser, as the other files of pure functions: tests/pages/*.test.js.
+const formats = (() => {
+  const degree = 180 / Math.PI;
+
+  // At most five digits, without unusual exponents.
+  function shown(value) {
+    if (!Number.isFinite(value)) return "\u2013";
+    const size = Math.abs(value);
+    const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential(3) : String(Number(value.toPrecision(5)));
+    return text.replace(/^-/, "\u2212");
+  }
+
+  // At most four digits.
+  const short = (value) => Number.isFinite(value) ? shown(Number(value.toPrecision(4))) : "\u2013";
+
+  // The relative change in percent, with its sign.
+  function change(before, after) {
+    const percents = 100 * (after / before - 1);
+    if (!(Math.abs(percents) < 1e5)) return "";  // before is negligible
+    return Math.abs(percents) < 0.005 ? "0 %" : `${percents > 0 ? "+" : "\u2212"}${Math.abs(percents).toFixed(2)} %`;
+  }
+
+  // The same with one decimal.
+  const briefChange = (before, after) => change(before, after).replace(/(\.\d)\d* %/, "$1\u2009%");
+
+  const minutes = (seconds) => seconds < 100 ? `${seconds.toFixed(1)} s` : `${(seconds / 60).toFixed(1)} min`;
+
+  // The largest of 1, 2 and 5 times a power of ten that is not above the wanted magnification, at least 1.
+  function roundMagnification(wanted) {
+    const power = 10 ** Math.floor(Math.log10(wanted));
+    return Math.max(1, [1, 2, 5, 10].map((m) => m * power).filter((m) => m <= wanted * 1.0001).pop());
+  }
+
+  // The magnification at which displacements of this size [m] show: the current one while it is about right, so that it
+  // seldom changes.
+  function steadyMagnification(current, travel, outerRadius) {
+    const wanted = 0.03 * outerRadius / Math.max(travel, 1e-12);
+    return current > 0.4 * wanted && current < 1.25 * wanted ? current : roundMagnification(wanted);
+  }
+
+  // The labels of a colour scale at the given shares of its length; the last one has the unit.
+  const scaleLabels = (shares, { end, unit, power = 1 }) => shares.map((t) =>
+    `${Number((t ** power * end).toPrecision(3))}${t === 1 ? ` ${unit}` : ""}`);
+
+  const sentence = (text) => text[0].toUpperCase() + text.slice(1);
+  const words = (identifier) => identifier.replaceAll("_", " ");
+
+  return { degree, shown, short, change, briefChange, minutes, roundMagnification, steadyMagnification,
+    scaleLabels, sentence, words };
+})();

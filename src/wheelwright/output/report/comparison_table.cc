@@ -1,0 +1,149 @@
+#include "wheelwright/output/report/comparison_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wheelwright {
+namespace {
+
+constexpr int value_width = 12, change_width = 12;
+
+using Value = std::optional<KnownNumber>;
+
+bool is_known(const Value& value) { return value && *value; }
+bool is_missing(const Value& value) { return value && !*value; }
+
+/// Empty if the first value is negligible compared with the other.
+std::string change(const Value& first_value, const Value& other) {
+  constexpr double max_percents = 1e5;
+  if (!is_known(first_value) || !is_known(other)) return "";
+  const double first = **first_value, value = **other;
+  const double percents = 100 * (value / first - 1);
+  if (!(std::abs(percents) < max_percents)) return "";
+  if (std::abs(percents) < 0.005) return "0 %";
+  return fmt::format("{:+.2f} %", percents);
+}
+
+std::string shortened(const std::string& name) {
+  return name.size() < value_width ? name : name.substr(0, value_width - 3) + "..";
+}
+
+/// The numbers that are missing of some wheels for one reason.
+struct MissingNumbers {
+  std::string wheels, reason;
+  std::vector<std::string> labels;
+};
+
+std::string without_leading_spaces(const std::string& text) {
+  return text.substr(text.find_first_not_of(' '));
+}
+
+std::vector<MissingNumbers> missing_numbers(const std::vector<std::string>& wheels,
+                                            const std::vector<ComparedRow>& rows) {
+  std::vector<MissingNumbers> result;
+  for (const ComparedRow& row : rows) {
+    std::vector<std::pair<std::string, std::string>> of_reason;  // the reason, the wheels
+    for (std::size_t k = 0; k < row.values.size(); ++k) {
+      if (!is_missing(row.values[k])) continue;
+      const std::string& reason = row.values[k]->failure();
+      if (const auto known =
+              std::ranges::find(of_reason, reason, &std::pair<std::string, std::string>::first);
+          known != of_reason.end())
+        known->second += ", " + wheels[k];
+      else
+        of_reason.emplace_back(reason, wheels[k]);
+    }
+    for (const auto& [reason, names] : of_reason) {
+      const auto same = std::ranges::find_if(
+          result, [&](const MissingNumbers& one) { return one.reason == reason && one.wheels == names; });
+      MissingNumbers& group =
+          same != result.end() ? *same : result.emplace_back(MissingNumbers{names, reason, {}});
+      group.labels.push_back(without_leading_spaces(row.label));
+    }
+  }
+  return result;
+}
+
+std::string text(const MissingNumbers& missing) {
+  constexpr std::size_t max_named = 4;
+  const auto& labels = missing.labels;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(labels.size(), max_named); ++k)
+    names += (k > 0 ? ", " : "") + labels[k];
+  if (labels.size() > max_named) names += fmt::format(" and {} more", labels.size() - max_named);
+  return fmt::format("not computed ({}): {}: {}", missing.wheels, names, missing.reason);
+}
+
+/// Null wheels have no values.
+template <int dim>
+void add_row(const WheelNumber<dim>& number, const std::string& in_case,
+             const std::vector<const DescribedWheel<dim>*>& wheels, std::vector<ComparedRow>& rows) {
+  ComparedRow row{fmt::format("{}{} [{}]", number.label, in_case, number.shown().name), {}};
+  for (const DescribedWheel<dim>* wheel : wheels) {
+    const auto value = wheel ? number.value(*wheel) : std::nullopt;
+    row.values.push_back(is_known(value) ? Value(**value * number.shown().factor) : value);
+  }
+  if (std::ranges::any_of(row.values, [](const auto& value) { return value.has_value(); }))
+    rows.push_back(std::move(row));
+}
+
+/// The names of the wheels' other load cases, in the order in which they first come.
+template <int dim>
+std::vector<std::string> other_load_cases(const std::vector<const DescribedWheel<dim>*>& wheels) {
+  std::vector<std::string> names;
+  for (const DescribedWheel<dim>* wheel : wheels)
+    for (const DescribedWheel<dim>& other : wheel->others)
+      if (std::ranges::find(names, other.load_case) == names.end()) names.push_back(other.load_case);
+  return names;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels) {
+  std::vector<ComparedRow> rows;
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) add_row(number, "", wheels, rows);
+  for (const std::string& load_case : other_load_cases(wheels)) {
+    std::vector<const DescribedWheel<dim>*> others;
+    for (const DescribedWheel<dim>* wheel : wheels) others.push_back(under_load_case(*wheel, load_case));
+    for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+      if (!number.is_of_shape) add_row(number, " in " + load_case, others, rows);
+  }
+  return rows;
+}
+
+template decltype(compared_rows<2>) compared_rows<2>;
+template decltype(compared_rows<3>) compared_rows<3>;
+
+std::vector<std::string> missing_lines(const std::vector<std::string>& wheels,
+                                       const std::vector<ComparedRow>& rows) {
+  std::vector<std::string> lines;
+  for (const MissingNumbers& missing : missing_numbers(wheels, rows)) lines.push_back(text(missing));
+  return lines;
+}
+
+std::string comparison_table(const std::vector<std::string>& wheels, const std::vector<ComparedRow>& rows) {
+  std::size_t label_width = 0;
+  for (const ComparedRow& row : rows) label_width = std::max(label_width, row.label.size());
+  const auto cells = [](bool has_change, const std::string& value, const std::string& relative) {
+    std::string text = fmt::format("{:>{}}", value, value_width);
+    return has_change ? text + fmt::format("{:>{}}", relative, change_width) : text;
+  };
+  std::string table(label_width, ' ');
+  for (std::size_t k = 0; k < wheels.size(); ++k) table += cells(k > 0, shortened(wheels[k]), "change");
+  table += '\n';
+  for (const ComparedRow& row : rows) {
+    if (std::ranges::none_of(row.values, is_known)) continue;
+    table += fmt::format("{:<{}}", row.label, label_width);
+    for (std::size_t k = 0; k < row.values.size(); ++k)
+      table += cells(k > 0, is_known(row.values[k]) ? fmt::format("{:.6g}", **row.values[k]) : "-",
+                     change(row.values[0], row.values[k]));
+    table += '\n';
+  }
+  for (const std::string& line : missing_lines(wheels, rows)) table += line + '\n';
+  return table;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wheelwright/output/report/described_wheel.h"
+
+namespace wheelwright {
+
+/// A quantity of several wheels, in the unit named by its label.
+struct ComparedRow {
+  std::string label;
+  std::vector<std::optional<KnownNumber>> values;  ///< one per wheel; nothing if it has none
+};
+
+/// The numbers (wheel_numbers) that at least one of the wheels has or should have; then, for every other load
+/// case, those that depend on the load.
+template <int dim>
+std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels);
+
+/// The numbers that could not be computed, with wheels and reason; one line per reason.
+std::vector<std::string> missing_lines(const std::vector<std::string>& wheels,
+                                       const std::vector<ComparedRow>& rows);
+
+/// One line per quantity: the value of every wheel and, from the second wheel on, its relative change from
+/// the first. A change that is not finite is omitted. Followed by the missing_lines.
+std::string comparison_table(const std::vector<std::string>& wheels, const std::vector<ComparedRow>& rows);
+
+}  // namespace wheelwright

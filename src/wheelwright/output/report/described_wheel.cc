@@ -1,0 +1,282 @@
+#include "wheelwright/output/report/described_wheel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "wheelwright/cad/outline/fit_outline.h"
+#include "wheelwright/quantities/functionals/quantities.h"
+
+namespace wheelwright {
+namespace {
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+template <int dim>
+std::vector<double> of_positions(const LoadedWheel<dim>& wheel, double ContactSummary::*member) {
+  std::vector<double> values;
+  for (const ContactSummary& position : wheel.rolling.positions) values.push_back(position.*member);
+  return values;
+}
+
+/// The amplitude of the lowest harmonic possible for a wheel of equal sectors.
+double first_harmonic(const std::vector<double>& values) {
+  const auto harmonics = rolling_variation(values).harmonics;
+  return harmonics.empty() ? 0 : harmonics.front();
+}
+
+template <int dim>
+std::optional<double> mass(const StateSolver<dim>& solver, double volume_fraction) {
+  const RollingModel<dim>& model = solver.model();
+  const std::optional<double> density = model.materials.at_tread().density();
+  if (!density) return {};
+  const PolarGrid<dim>& grid = model.grid;
+  const double area =
+      std::numbers::pi * (grid.outer_radius * grid.outer_radius - grid.inner_radius * grid.inner_radius);
+  return *density * volume_fraction * area * (dim == 3 ? grid.width : 1);
+}
+
+/// Tolerance of the curves relative to the tread's radius: that of exported outlines.
+constexpr double curve_tolerance = 3e-5;
+
+/// A number of a wheel; nothing if the wheel cannot have one.
+using Number = std::optional<KnownNumber>;
+
+std::string reason(const Failure& failure) {
+  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
+}
+
+/// A value of the wheel under its load.
+template <int dim, class Value>
+Number under_load(const DescribedWheel<dim>& wheel, const Value& value) {
+  if (!wheel.loaded) return reason(wheel.loaded.failure());
+  return value(*wheel.loaded);
+}
+
+/// A value of a curve over the load positions, times a factor.
+template <int dim, class Value>
+Number of_curve(const DescribedWheel<dim>& wheel, Expected<std::vector<double>> RollingAnalysis::*curve,
+                double factor, const Value& value) {
+  return under_load(wheel, [&](const LoadedWheel<dim>& loaded) -> Number {
+    const auto& values = loaded.rolling.*curve;
+    if (!values) return reason(values.failure());
+    return factor * value(*values);
+  });
+}
+
+double peak_to_peak(const std::vector<double>& values) { return rolling_variation(values).peak_to_peak(); }
+
+template <int dim>
+double width(const DescribedWheel<dim>& wheel) {
+  return whole_width(dim, wheel.grid.width);
+}
+
+template <int dim>
+Number width_of(const DescribedWheel<dim>& wheel, std::optional<cad::Clearance> cad::Clearances::*which) {
+  if (!wheel.outline) return wheel.outline.failure().what;
+  const auto& clearance = wheel.outline->clearances.*which;
+  return clearance ? Number(clearance->width) : std::nullopt;
+}
+
+/// Nothing if there are no holes.
+template <int dim>
+Number of_edges(const DescribedWheel<dim>& wheel, Number (*value)(const cad::Roughness&)) {
+  if (!wheel.outline) return wheel.outline.failure().what;
+  return wheel.outline->roughness ? value(*wheel.outline->roughness) : std::nullopt;
+}
+
+template <int dim>
+Number patch_extent(const DescribedWheel<dim>& wheel) {
+  return under_load(wheel, [](const LoadedWheel<dim>& w) -> Number {
+    const double length = mean(of_positions(w, &ContactSummary::patch_length)),
+                 extent = mean(of_positions(w, &ContactSummary::patch_extent));
+    return extent > length ? Number(extent) : std::nullopt;
+  });
+}
+
+template <int dim>
+Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                        const SolvedStates<dim>& states) {
+  if (!states) return states.failure();
+  return LoadedWheel<dim>{shape_summary(solver, psi, **states), rolling_analysis(solver, **states)};
+}
+
+}  // namespace
+
+template <int dim>
+Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>& psi) {
+  if constexpr (dim == 2) {
+    const PolarGrid<2>& grid = psi.lattice.grid();
+    const auto outline = cad::fit_outline(psi, curve_tolerance * grid.outer_radius);
+    if (!outline) return outline.failure();
+    return OutlineMeasures{cad::clearances(*outline, grid.n_sectors, cad::clearance_step * grid.outer_radius),
+                           cad::roughness(*outline, grid.n_sectors, grid.resolution())};
+  }
+  return OutlineMeasures{};
+}
+
+template <int dim>
+std::optional<cad::Roughness> roughness(const DescribedWheel<dim>& wheel) {
+  return wheel.outline ? wheel.outline->roughness : std::nullopt;
+}
+
+template <int dim>
+DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                    double volume_fraction, const SolvedStates<dim>& states,
+                                    const LoadCases<dim>& cases) {
+  DescribedWheel<dim> wheel{.name = {},
+                            .which = {},
+                            .grid = solver.model().grid,
+                            .volume_fraction = volume_fraction,
+                            .mass = mass(solver, volume_fraction),
+                            .outline = outline_measures(psi),
+                            .loaded = loaded_wheel(solver, psi, states)};
+  if (!cases.empty()) wheel.load_case = cases.front().name;
+  for (std::size_t k = 1; k < cases.size(); ++k) {
+    DescribedWheel<dim> other = wheel;
+    other.others.clear();
+    other.load_case = cases[k].name;
+    other.loaded = loaded_wheel(
+        solver, psi,
+        states ? (*states)->under(with_loads_of((*states)->model(), cases[k].model), Interrupt()) : states);
+    wheel.others.push_back(std::move(other));
+  }
+  return wheel;
+}
+
+template <int dim>
+const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case) {
+  const auto found = std::ranges::find(wheel.others, load_case, &DescribedWheel<dim>::load_case);
+  return found == wheel.others.end() ? nullptr : &*found;
+}
+
+template <int dim>
+std::optional<double> known_value(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel) {
+  const auto value = number.value(wheel);
+  return value && *value ? std::optional(**value) : std::nullopt;
+}
+
+namespace {
+
+/// A number that is a quantity of cases; by default with its label.
+template <int dim>
+WheelNumber<dim> number(std::string_view quantity,
+                        std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&),
+                        std::string own_label = {}) {
+  const Quantity& of = built_in(quantity);
+  return {own_label.empty() ? label(of) : std::move(own_label), kind(of), number_key(of, dim), value,
+          of->of == Positions::none};
+}
+
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_under_load() {
+  using Wheel = DescribedWheel<dim>;
+  using Loaded = LoadedWheel<dim>;
+  return {
+      {"load", UnitKind::force, "load_N",
+       [](const Wheel& w) {
+         return under_load(w, [&](const Loaded& l) { return l.rolling.load * width(w); });
+       }},
+      number<dim>("mean_travel",
+                  [](const Wheel& w) {
+                    return under_load(
+                        w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::travel)); });
+                  }),
+      number<dim>("stiffness",
+                  [](const Wheel& w) {
+                    return under_load(w, [&](const Loaded& l) { return l.summary.stiffness * width(w); });
+                  }),
+      number<dim>(
+          "run_out",
+          [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, peak_to_peak); },
+          "run-out at fixed load"),
+      {"  its first sector harmonic", UnitKind::length, "run_out_first_harmonic_m",
+       [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, first_harmonic); }},
+      number<dim>(
+          "force_variation",
+          [](const Wheel& w) {
+            return of_curve(w, &RollingAnalysis::force_at_travel, width(w), peak_to_peak);
+          },
+          "radial force variation at fixed travel"),
+      {"  its first sector harmonic", UnitKind::force, "force_first_harmonic_N",
+       [](const Wheel& w) {
+         return of_curve(w, &RollingAnalysis::force_at_travel, width(w), first_harmonic);
+       }},
+      number<dim>("peak_pressure",
+                  [](const Wheel& w) {
+                    return under_load(w, [](const Loaded& l) { return l.summary.rolling.peak_pressure; });
+                  }),
+      {"mean length of the contact patch", UnitKind::length, "patch_length_m",
+       [](const Wheel& w) {
+         return under_load(
+             w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::patch_length)); });
+       }},
+      {"  with its gaps", UnitKind::length, "patch_extent_m", [](const Wheel& w) { return patch_extent(w); }},
+      number<dim>("peak_von_mises",
+                  [](const Wheel& w) {
+                    return under_load(w, [](const Loaded& l) { return l.summary.von_mises.value; });
+                  }),
+      number<dim>("largest_strain",
+                  [](const Wheel& w) {
+                    return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
+                  }),
+      number<dim>("strain_energy", [](const Wheel& w) {
+        return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; });
+      })};
+}
+
+/// Measured on the curves fitted to the edges.
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of_outline() {
+  using Wheel = DescribedWheel<dim>;
+  return {number<dim>("minimum_wall", [](const Wheel& w) { return width_of(w, &cad::Clearances::wall); }),
+          number<dim>("minimum_gap", [](const Wheel& w) { return width_of(w, &cad::Clearances::gap); }),
+          number<dim>("roughness",
+                      [](const Wheel& w) {
+                        return of_edges(w, [](const cad::Roughness& r) -> Number { return r.edge.turns; });
+                      }),
+          {"smallest radius of an internal corner", UnitKind::length, "internal_corner_radius_m",
+           [](const Wheel& w) {
+             return of_edges(w, [](const cad::Roughness& r) {
+               return r.internal_corner ? Number(r.internal_corner->radius) : std::nullopt;
+             });
+           },
+           true}};
+}
+
+}  // namespace
+
+template <int dim>
+const std::vector<WheelNumber<dim>>& wheel_numbers() {
+  using Wheel = DescribedWheel<dim>;
+  static const std::vector<WheelNumber<dim>> numbers = [] {
+    std::vector<WheelNumber<dim>> all{
+        number<dim>("volume_fraction", [](const Wheel& w) -> Number { return w.volume_fraction; }),
+        number<dim>("mass", [](const Wheel& w) -> Number {
+          return w.mass ? Number(*w.mass * width(w)) : std::nullopt;
+        })};
+    for (const auto& more : {numbers_under_load<dim>(), numbers_of_outline<dim>()})
+      all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
+  return numbers;
+}
+
+template decltype(described_wheel<2>) described_wheel<2>;
+template decltype(under_load_case<2>) under_load_case<2>;
+template decltype(outline_measures<2>) outline_measures<2>;
+template decltype(roughness<2>) roughness<2>;
+template decltype(known_value<2>) known_value<2>;
+template decltype(wheel_numbers<2>) wheel_numbers<2>;
+template decltype(described_wheel<3>) described_wheel<3>;
+template decltype(under_load_case<3>) under_load_case<3>;
+template decltype(outline_measures<3>) outline_measures<3>;
+template decltype(roughness<3>) roughness<3>;
+template decltype(known_value<3>) known_value<3>;
+template decltype(wheel_numbers<3>) wheel_numbers<3>;
+
+}  // namespace wheelwright

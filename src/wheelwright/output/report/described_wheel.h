@@ -1,0 +1,94 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wheelwright/base/units.h"
+#include "wheelwright/cad/outline/clearance.h"
+#include "wheelwright/cad/outline/outline.h"
+#include "wheelwright/cad/outline/roughness.h"
+#include "wheelwright/mechanics/state/load_case.h"
+#include "wheelwright/quantities/analysis/rolling_analysis.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
+
+namespace wheelwright {
+
+/// The response of a wheel to a load, as numbers. Forces of the analysis are per metre of width when dim = 2.
+template <int dim>
+struct LoadedWheel {
+  ShapeSummary<dim> summary;
+  RollingAnalysis rolling;
+};
+
+/// Measurements on the curves fitted to the edges of a shape. Nothing when dim = 3, where edges are not plane
+/// curves.
+struct OutlineMeasures {
+  cad::Clearances clearances = {};
+  std::optional<cad::Roughness> roughness = {};  ///< at a cell of the grid; nothing without holes
+};
+
+/// A wheel in numbers.
+template <int dim>
+struct DescribedWheel {
+  std::string name;   ///< e.g. of its case file or run, or "before"
+  std::string which;  ///< e.g. "shape 31"
+  PolarGrid<dim> grid;
+  double volume_fraction;      ///< material area over the area of the full ring
+  std::optional<double> mass;  ///< [kg, per metre of width when dim = 2], if the material has a density
+  Expected<OutlineMeasures, cad::OutlineFault> outline;  ///< fails if no curves can be fitted
+  Expected<LoadedWheel<dim>> loaded;                     ///< fails like the contact problem
+  std::string load_case = {};               ///< of these numbers; empty: the wheel has only one load
+  std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
+};
+
+/// States of a shape, or why there are none.
+template <int dim>
+using SolvedStates = Expected<std::shared_ptr<const State<dim>>>;
+
+/// Describes a shape by its states under the first of its load cases; the others are solved on the same
+/// factor.
+template <int dim>
+DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                    double volume_fraction, const SolvedStates<dim>& states,
+                                    const LoadCases<dim>& cases);
+
+/// The wheel under the load case of that name; null if it has none.
+template <int dim>
+const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case);
+
+/// Fails if no curves can be fitted.
+template <int dim>
+Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>& psi);
+
+/// The clearances of a wheel; nothing if it has none or no curves could be fitted.
+template <int dim>
+std::optional<cad::Roughness> roughness(const DescribedWheel<dim>& wheel);
+
+/// A number about a wheel, or in one line why it could not be computed, e.g. "newton_stalled: ...".
+using KnownNumber = Expected<double, std::string>;
+
+/// One number about a wheel.
+template <int dim>
+struct WheelNumber {
+  std::string label;
+  UnitKind kind;
+  std::string key;  ///< for programs, with the SI unit
+  /// In SI units, on the whole width: nothing if the wheel has no such number, e.g. a mass without a density;
+  /// the reason if it could not be computed.
+  std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&);
+  bool is_of_shape = false;  ///< the same under every load
+
+  ShownUnit shown() const { return shown_unit(kind, dim); }
+};
+
+/// The numbers by which wheels are judged and compared, in the order of tables.
+template <int dim>
+const std::vector<WheelNumber<dim>>& wheel_numbers();
+
+/// In SI units, on the whole width; nothing if the wheel has no such number, for whatever reason.
+template <int dim>
+std::optional<double> known_value(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel);
+
+}  // namespace wheelwright

@@ -1,0 +1,163 @@
+#include "wheelwright/output/report/lit_wheel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "wheelwright/output/report/colour_map.h"
+#include "wheelwright/output/report/surface_vtp.h"
+#include "wheelwright/output/report/svg.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+
+namespace wheelwright {
+namespace {
+
+using P = DeformedLayout;
+constexpr double foot = 64;         // [pixels]
+constexpr int image_pixels = 1040;  // for screens with several pixels per unit of the picture
+constexpr double outliers = 0.01;   // fraction of the vertices beyond a scale without tail
+constexpr double half_view = 1.1;   // over the wheel's radius
+
+/// How far magnified displacements move the tread below the ground, if there is one, at the displacement's
+/// nodes there.
+class Press {
+ public:
+  Press(const Lattice<3>& lattice, const DeformedPicture<3>& picture)
+      : grid_(lattice.grid()),
+        lines_(lattice.nodes()[1] * lattice.grid().n_sectors),
+        axial_nodes_(lattice.nodes()[2]) {
+    const double azimuth = picture.contact_azimuth;
+    for (int line = 0; line < lines_; ++line) {
+      const double from_contact = line * lattice.spacing()[1] - azimuth;
+      for (int axial = 0; axial < axial_nodes_; ++axial) {
+        const double* u =
+            &picture.displacement.values[3 * ring_node<3>(lattice, {lattice.nodes()[0] - 1, line, axial})];
+        const double down = std::cos(azimuth) * u[0] + std::sin(azimuth) * u[1];
+        const double below = picture.magnification * down - grid_.outer_radius * (1 - std::cos(from_contact));
+        depths_.push_back(below > 0 && !picture.is_bonded ? below : 0);  // nothing for NaN
+      }
+    }
+  }
+
+  double maximum() const { return std::ranges::max(depths_); }
+
+  /// The value at a point of the material, in proportion to its distance from the rim.
+  double at(const Vec<3>& x) const {
+    const double share =
+        (std::hypot(x[0], x[1]) - grid_.inner_radius) / (grid_.outer_radius - grid_.inner_radius);
+    const double line = std::atan2(x[1], x[0]) / (2 * std::numbers::pi) * lines_,
+                 axial = std::clamp(x[2] / grid_.width, 0.0, 1.0) * (axial_nodes_ - 1);
+    const int i = static_cast<int>(std::floor(line)), k = std::min(static_cast<int>(axial), axial_nodes_ - 2);
+    const auto between = [&](int at_line) {
+      const double* depths = &depths_[std::size_t(wrap(at_line, lines_)) * axial_nodes_ + k];
+      return std::lerp(depths[0], depths[1], axial - k);
+    };
+    return share * std::lerp(between(i), between(i + 1), line - i);
+  }
+
+ private:
+  PolarGrid<3> grid_;
+  int lines_, axial_nodes_;
+  std::vector<double> depths_;
+};
+
+/// Colours of values on a scale.
+std::vector<Rgb> colours(const std::vector<float>& values, const ColourScale& scale) {
+  std::vector<Rgb> result;
+  result.reserve(values.size());
+  for (const float value : values) result.push_back(viridis_rgb(scale.fraction(value)));
+  return result;
+}
+
+ColourScale scale_of(const std::vector<float>& values, ScaleKind kind) {
+  const std::vector<double> all(values.begin(), values.end());
+  return kind == ScaleKind::without_tail ? colour_scale_from_zero(all, outliers) : colour_scale(all, 0);
+}
+
+/// A rectangle of ground under the wheel.
+LitBody ground(const PolarGrid<3>& grid) {
+  constexpr Rgb grey{0xe4, 0xe7, 0xea};
+  const double y = -grid.outer_radius, x = 1.05 * grid.outer_radius,
+               z = 0.5 * grid.width + 0.12 * grid.outer_radius;
+  return {{{-x, y, z}, {x, y, z}, {x, y, -z}, {-x, y, -z}},
+          {{0, 1, 2}, {0, 2, 3}},
+          std::vector<Rgb>(4, grey),
+          false};
+}
+
+std::string peak_text(const DeformedPicture<3>& picture) {
+  if (!picture.peak) return "";
+  const Vec<3>& x = picture.peak->place;
+  return fmt::format(
+      "<text x=\"{}\" y=\"{}\">largest {}: {} at radius {:.1f} mm, azimuth {:.2f}\u00b0, z = {:.1f} "
+      "mm</text>\n",
+      P::margin, P::top + P::wheel_size + foot - 36, escape_xml(picture.scalar.name),
+      value_text(picture.peak->value, escape_xml(picture.scalar.unit)), 1e3 * std::hypot(x[0], x[1]),
+      std::atan2(x[1], x[0]) * 180 / std::numbers::pi, 1e3 * x[2]);
+}
+
+}  // namespace
+
+std::vector<Vec<3>> standing_on_the_ground(std::vector<Vec<3>> points, const PolarGrid<3>& grid,
+                                           double contact_azimuth) {
+  for (Vec<3>& x : points) {
+    x = rotated<3>(x, -0.5 * std::numbers::pi - contact_azimuth);
+    x[2] -= 0.5 * grid.width;
+  }
+  return points;
+}
+
+Camera wheel_camera(const PolarGrid<3>& grid) {
+  constexpr double yaw = 0.6, pitch = 0.24;
+  return {yaw, pitch, {}, half_view * std::hypot(grid.outer_radius, 0.25 * grid.width)};
+}
+
+LitBody lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid) {
+  constexpr Rgb blue{0x6f, 0x9a, 0xc4};
+  return {.points = standing_on_the_ground(surface.points, grid, 0),
+          .triangles = surface.triangles,
+          .colours = std::vector<Rgb>(surface.points.size(), blue)};
+}
+
+std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
+                              const std::vector<std::vector<float>>& displacement, const Lattice<3>& lattice,
+                              const DeformedPicture<3>& picture) {
+  const Press press(lattice, picture);
+  const double x_down = std::cos(picture.contact_azimuth), y_down = std::sin(picture.contact_azimuth);
+  std::vector<Vec<3>> result = points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    Vec<3>& x = result[k];
+    for (int d = 0; d < 3; ++d) x[d] += picture.magnification * displacement[d][k];
+    double up = press.at(points[k]);
+    const double depth = x_down * x[0] + y_down * x[1] - up - lattice.grid().outer_radius;
+    if (depth > 0 && !picture.is_bonded) up += depth;
+    x[0] -= up * x_down;
+    x[1] -= up * y_down;
+  }
+  return result;
+}
+
+std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
+                         const DeformedPicture<3>& picture) {
+  const PolarGrid<3>& grid = lattice.grid();
+  const FieldPoints<3> fields = field_points(surface, lattice);
+  const auto displacement = fields.values({"displacement", "m", picture.displacement});
+  const auto scalar = fields.values(picture.scalar)[0];
+  const ColourScale scale = scale_of(scalar, picture.scale);
+  const auto points = standing_on_the_ground(displaced(surface.points, displacement, lattice, picture), grid,
+                                             picture.contact_azimuth);
+  std::vector<LitBody> bodies{
+      {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}};
+  if (!picture.is_bonded) bodies.insert(bodies.begin(), ground(grid));
+  const Image image = lit_image(bodies, wheel_camera(grid), image_pixels);
+  const bool is_pressed = Press(lattice, picture).maximum() > 0.002 * grid.outer_radius;
+  return deformed_document(
+      picture,
+      fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n", P::margin,
+                  P::top, P::wheel_size, data_url(image)),
+      scale, foot, peak_text(picture) + (is_pressed ? footnote(picture.magnification, foot) : ""));
+}
+
+}  // namespace wheelwright

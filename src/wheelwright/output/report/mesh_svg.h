@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "wheelwright/shape/cut/cut_domain.h"
+#include "wheelwright/shape/geometry/level_set.h"
+
+namespace wheelwright {
+
+/// The polar grid of the full ring as an SVG document: cells inside the material, cells that its boundary
+/// cuts with the material in them, and cells outside. `domain` is psi's; the tread's refinement is not drawn.
+std::string mesh_svg(const LevelSet<2>& psi, const CutDomain<2>& domain, const std::string& title);
+
+}  // namespace wheelwright

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/output/report/plot_svg.h"
+#include "wheelwright/quantities/analysis/rolling_analysis.h"
+
+namespace wheelwright {
+
+/// The analysis of one shape. Forces are shown on the whole width.
+struct RollingReport {
+  std::string title;
+  double width;  ///< w_r [m]
+  int n_sectors;
+  RollingAnalysis analysis;
+  std::vector<double> loads;  ///< as in the analysis, ascending; empty: none were requested
+  std::vector<Expected<std::vector<ContactSummary>>> under_loads;  ///< [load][position]
+  int dimension = 2;                                               ///< of the analysis
+};
+
+/// For display: one line per load position, another one if there is friction or torque, variations in
+/// rolling, one line per load, and what could not be computed and why.
+std::string rolling_table(const RollingReport& report);
+
+/// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double;
+/// missing numbers are null, and `missing` has their names with the reason.
+std::string rolling_json(const RollingReport& report);
+
+/// One turn of the wheel by one sector, closed: travel of the rim at fixed load, force of the ground at fixed
+/// travel, and the peak of the contact pressure. Must not be called if the values could not be computed.
+LinePlot travel_plot(const RollingReport& report);
+LinePlot force_plot(const RollingReport& report);
+LinePlot peak_pressure_plot(const RollingReport& report);
+
+/// Travel against load, from zero: the softest position, the mean and the stiffest.
+LinePlot load_plot(const RollingReport& report);
+
+}  // namespace wheelwright

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/base/expected.h"
+#include "wheelwright/base/units.h"
+#include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/output/report/remark.h"
+
+namespace wheelwright {
+
+/// A shape of a run, as numbers.
+template <int dim>
+struct SummarizedShape {
+  int iteration;          ///< 0: the initial shape
+  KnownNumber objective;  ///< sum over the load positions of a sector
+  DescribedWheel<dim> wheel;
+};
+
+/// A bound on a quantity, at the last shape. In SI units; in 2D forces, energies, masses and stiffnesses per
+/// metre of width.
+struct SummarizedBound {
+  std::string name;
+  double value, bound;
+  char relation;      ///< '<', '>' or '='
+  double multiplier;  ///< of the objective, per unit of the bound
+  bool is_kept;
+  const char* unit;  ///< of value and bound
+  ShownUnit shown;   ///< as tables show them
+};
+
+/// The result of a run, compared with the wheel that its case gives. Both shapes are solved on a tread of the
+/// same resolution.
+template <int dim>
+struct RunSummary {
+  std::string title;
+  SummarizedShape<dim> before, after;
+  std::vector<SummarizedBound> bounds = {};
+  /// What is minimized instead of the weighted sum, with its unit; empty for the sum.
+  std::string minimized = {};
+  ShownUnit objective = shown_unit(UnitKind::energy, dim);
+  std::vector<Remark> remarks = {};  ///< what got clearly worse
+  std::string changed_start = {};    ///< how the run's first shape differs from the given wheel, if it does
+};
+
+/// The numbers of the two shapes that could not be computed, and why: one line per reason.
+template <int dim>
+std::vector<std::string> missing_lines(const RunSummary<dim>& summary);
+
+/// For display: one line per quantity with both values and the change, what could not be computed and why,
+/// the place of the peak stress, what got clearly worse, and how the run's first shape differs from the given
+/// wheel. Forces are shown on the whole width.
+template <int dim>
+std::string summary_table(const RunSummary<dim>& summary);
+
+/// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double;
+/// one that could not be computed is null.
+template <int dim>
+std::string summary_json(const RunSummary<dim>& summary);
+
+/// The same for a run without a shape, because its initial one cannot be computed: its title, and why.
+std::string failure_json(const std::string& title, const Failure& failure);
+
+}  // namespace wheelwright

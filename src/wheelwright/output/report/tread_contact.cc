@@ -1,0 +1,258 @@
+#include "wheelwright/output/report/tread_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wheelwright/base/units.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/output/report/vtu_arrays.h"
+#include "wheelwright/quantities/analysis/all_positions.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/mirror.h"
+
+namespace wheelwright {
+namespace {
+
+/// The columns of the contact zone.
+template <int dim>
+std::vector<bool> contact_columns(const ContactPatch<dim>& contact, int n_columns) {
+  std::vector<bool> in_zone(n_columns, false);
+  for (const auto& point : contact.points) in_zone[point.column] = true;
+  return in_zone;
+}
+
+/// A point of the tread without its tractions, under a position that was solved for.
+template <int dim>
+TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<dim>& state, int position,
+                                  int column, int point) {
+  const TreadSurface<dim>& surface = solver.tread_surface();
+  const PolarGrid<dim>& grid = solver.model().grid;
+  const double ground = state.positions().grounds[position].azimuth(grid),
+               turn = column * grid.cell_size()[1] - ground;
+  Vec<dim> u;
+  std::copy_n(
+      state.observations().column(position * surface.n_columns + column) + surface.rows().displacement(point),
+      dim, u.begin());
+  const Vec<dim> place = rotated<dim>(surface.points[point].position, turn), elastic = rotated<dim>(u, turn);
+  const Vec<dim> moved = displacement<dim>(state.contacts()[position].rim, place) + elastic;
+  return {.position = rotated<dim>(place, ground),
+          .displacement = rotated<dim>(moved, ground),
+          .traction = {},
+          .pressure = 0,
+          .friction = 0,
+          .gap = grid.outer_radius - place[0] - moved[0],
+          .weight = surface.points[point].weight};
+}
+
+template <int dim>
+void set_traction(const Vec<dim>& traction, double ground, TreadContactPoint<dim>& point) {
+  point.traction = rotated<dim>(traction, ground);
+  point.pressure = -traction[0];
+  point.friction = traction[1];
+}
+
+/// Under a position that was solved for: all points of the columns in the contact zone, and the middle one of
+/// every other column, representing all of it.
+TreadContact<2> tread_of_solved(const StateSolver<2>& solver, const State<2>& state, int position) {
+  const TreadSurface<2>& surface = solver.tread_surface();
+  const int n_points = static_cast<int>(surface.points.size());
+  double column_length = 0;
+  for (const TreadPoint<2>& point : surface.points) column_length += point.weight;
+  const auto in_zone = contact_columns(state.contacts()[position], surface.n_columns);
+  TreadContact<2> tread;
+  std::vector<size_t> first;  // of every column
+  for (int column = 0; column < surface.n_columns; ++column) {
+    first.push_back(tread.size());
+    for (int q = 0; in_zone[column] && q < n_points; ++q)
+      tread.push_back(free_point(solver, state, position, column, q));
+    if (in_zone[column]) continue;
+    tread.push_back(free_point(solver, state, position, column, n_points / 2));
+    tread.back().weight = column_length;
+  }
+  const double ground = state.positions().grounds[position].azimuth(solver.model().grid);
+  for (const auto& point : state.contacts()[position].points)
+    set_traction<2>(point.traction, ground, tread[first[point.column] + point.point]);
+  return tread;
+}
+
+/// The contact points of a column, in lines of the same z from one side face to the other.
+std::vector<std::vector<int>> lines_of_points(const TreadSurface<3>& surface) {
+  std::vector<std::vector<int>> lines;
+  for (const FaceRow& row : surface.face_rows) {
+    const bool of_displacements = row.first < 2 * std::ssize(surface.points) && row.first % 2 == 0;
+    if (!of_displacements) continue;
+    lines.emplace_back();
+    for (int face = 0; face < row.faces; ++face)
+      for (int point = 0; point < row.points_per_face; ++point)
+        lines.back().push_back(row.observation(face, point) / 2);
+  }
+  std::ranges::sort(lines, {}, [&](const auto& line) { return surface.points[line.front()].position[2]; });
+  return lines;
+}
+
+/// Under a position that was solved for: all points.
+TreadContact<3> tread_of_solved(const StateSolver<3>& solver, const State<3>& state, int position) {
+  const TreadSurface<3>& surface = solver.tread_surface();
+  const auto lines = lines_of_points(surface);
+  TreadContact<3> tread;
+  std::vector<size_t> place_in_tread(surface.points.size() * surface.n_columns);
+  for (const auto& line : lines) {
+    const double z = surface.points[line.front()].position[2];  // of the others up to rounding
+    for (int column = 0; column < surface.n_columns; ++column)
+      for (const int q : line) {
+        place_in_tread[column * surface.points.size() + q] = tread.size();
+        tread.push_back(free_point(solver, state, position, column, q));
+        tread.back().position[2] = z;
+      }
+  }
+  const double ground = state.positions().grounds[position].azimuth(solver.model().grid);
+  for (const auto& point : state.contacts()[position].points)
+    set_traction<3>(point.traction, ground,
+                    tread[place_in_tread[point.column * surface.points.size() + point.point]]);
+  return tread;
+}
+
+/// The contact of a mirror-image position: reflected in the middle plane of sector 0, which maps position i
+/// of n to n - i.
+template <int dim>
+TreadContact<dim> mirror_image(TreadContact<dim> tread, double sector_angle) {
+  const auto image = [&](const Vec<dim>& v) {
+    return rotated<dim>(wheelwright::mirror_image<dim>(v), sector_angle);
+  };
+  for (TreadContactPoint<dim>& p : tread) {
+    p.position = image(p.position);
+    p.displacement = image(p.displacement);
+    p.traction = image(p.traction);
+    p.friction = -p.friction;
+  }
+  if constexpr (dim == 2) std::ranges::reverse(tread);
+  return tread;
+}
+
+template <int dim>
+std::vector<float> coordinates(const std::vector<Vec<dim>>& points) {
+  std::vector<float> result;
+  for (const Vec<dim>& p : points)
+    for (int d = 0; d < 3; ++d) result.push_back(d < dim ? static_cast<float>(p[d]) : 0);
+  return result;
+}
+
+template <int dim>
+std::vector<std::vector<float>> values(const TreadContact<dim>& tread,
+                                       double TreadContactPoint<dim>::*member) {
+  std::vector<std::vector<float>> result(1);
+  for (const auto& p : tread) result[0].push_back(static_cast<float>(p.*member));
+  return result;
+}
+
+template <int dim>
+std::vector<std::vector<float>> values(const TreadContact<dim>& tread,
+                                       Vec<dim> TreadContactPoint<dim>::*member) {
+  std::vector<std::vector<float>> result(dim);
+  for (const auto& p : tread)
+    for (int d = 0; d < dim; ++d) result[d].push_back(static_cast<float>((p.*member)[d]));
+  return result;
+}
+
+/// The cells of a tread: the corners of all cells, and the number per cell.
+struct TreadCells {
+  std::vector<std::int32_t> corners;
+  int per_cell;
+  std::uint8_t type;
+};
+
+TreadCells cells_of(const TreadContact<2>& tread) {
+  TreadCells cells{{}, 2, vtk_line};
+  const auto n = static_cast<std::int32_t>(tread.size());
+  for (std::int32_t k = 0; k < n; ++k) cells.corners.insert(cells.corners.end(), {k, (k + 1) % n});
+  return cells;
+}
+
+TreadCells cells_of(const TreadContact<3>& tread) {
+  TreadCells cells{{}, 4, vtk_quadrilateral};
+  const auto in_line = static_cast<std::int32_t>(
+      std::ranges::find_if(tread, [&](const auto& p) { return p.position[2] != tread[0].position[2]; }) -
+      tread.begin());
+  for (std::int32_t line = 0; line + in_line < std::ssize(tread); line += in_line)
+    for (std::int32_t k = 0; k < in_line; ++k) {
+      const std::int32_t next = (k + 1) % in_line;
+      cells.corners.insert(cells.corners.end(),
+                           {line + k, line + next, line + in_line + next, line + in_line + k});
+    }
+  return cells;
+}
+
+std::vector<std::int32_t> equal_offsets(std::size_t n_cells, int per_cell) {
+  std::vector<std::int32_t> offsets;
+  for (std::size_t k = 1; k <= n_cells; ++k) offsets.push_back(static_cast<std::int32_t>(k * per_cell));
+  return offsets;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<TreadContact<dim>> all_tread_contacts(const StateSolver<dim>& solver, const State<dim>& state) {
+  std::vector<TreadContact<dim>> all;
+  for (const PositionSource& source : position_sources(state.positions(), solver.model().n_positions)) {
+    TreadContact<dim> tread = tread_of_solved(solver, state, source.solved);
+    all.push_back(source.is_image ? mirror_image<dim>(std::move(tread), solver.model().grid.sector_angle())
+                                  : std::move(tread));
+  }
+  return all;
+}
+
+template <int dim>
+void write_tread_vtu(const std::filesystem::path& path, const TreadContact<dim>& tread) {
+  using Point = TreadContactPoint<dim>;
+  std::vector<Vec<dim>> points;
+  for (const Point& p : tread) points.push_back(p.position);
+  const TreadCells cells = cells_of(tread);
+  const std::size_t n_cells = cells.corners.size() / cells.per_cell;
+  AppendedArrays arrays(0);
+  const std::string mesh =
+      add_mesh(coordinates<dim>(points), cells.corners, equal_offsets(n_cells, cells.per_cell),
+               std::vector<std::uint8_t>(n_cells, cells.type), arrays);
+  const char *length = unit<dim>(UnitKind::length), *stress = unit<dim>(UnitKind::stress),
+             *weight = dim == 2 ? "m" : "m2";
+  const std::string fields =
+      add_field(vtu_name("displacement", length), values<dim>(tread, &Point::displacement), arrays) +
+      add_field(vtu_name("traction", stress), values<dim>(tread, &Point::traction), arrays) +
+      add_field(vtu_name("pressure", stress), values<dim>(tread, &Point::pressure), arrays) +
+      add_field(vtu_name("friction", stress), values<dim>(tread, &Point::friction), arrays) +
+      add_field(vtu_name("gap", length), values<dim>(tread, &Point::gap), arrays) +
+      add_field(vtu_name("weight", weight), values<dim>(tread, &Point::weight), arrays);
+  write_atomically(path, vtu_parts(vtu_beginning(tread.size(), n_cells, mesh) + fields, {arrays.bytes()}));
+}
+
+template <int dim>
+void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& grid, double ground_azimuth) {
+  const double top = grid.outer_radius, half = grid.outer_radius, bottom = 1.05 * grid.outer_radius;
+  std::vector<Vec<dim>> corners;
+  const auto add_rectangle = [&](double z) {
+    for (const Vec<2>& corner : {Vec<2>{top, -half}, {bottom, -half}, {bottom, half}, {top, half}}) {
+      Vec<dim> x{corner[0], corner[1]};
+      if constexpr (dim == 3) x[2] = z;
+      corners.push_back(rotated<dim>(x, ground_azimuth));
+    }
+  };
+  const double beside = dim == 2 ? 0 : 0.1 * grid.outer_radius;
+  add_rectangle(-beside);
+  if constexpr (dim == 3) add_rectangle(grid.width + beside);
+  std::vector<std::int32_t> connectivity(corners.size());
+  std::iota(connectivity.begin(), connectivity.end(), 0);
+  AppendedArrays arrays(0);
+  const std::string mesh =
+      add_mesh(coordinates<dim>(corners), connectivity, {static_cast<std::int32_t>(corners.size())},
+               {dim == 2 ? vtk_quadrilateral : vtk_hexahedron}, arrays);
+  write_atomically(path, vtu_parts(vtu_beginning(corners.size(), 1, mesh), {arrays.bytes()}));
+}
+
+template decltype(all_tread_contacts<2>) all_tread_contacts<2>;
+template decltype(write_tread_vtu<2>) write_tread_vtu<2>;
+template decltype(write_ground_vtu<2>) write_ground_vtu<2>;
+template decltype(all_tread_contacts<3>) all_tread_contacts<3>;
+template decltype(write_tread_vtu<3>) write_tread_vtu<3>;
+template decltype(write_ground_vtu<3>) write_ground_vtu<3>;
+
+}  // namespace wheelwright

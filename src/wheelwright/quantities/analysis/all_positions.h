@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "wheelwright/mechanics/state/load_positions.h"
+
+namespace wheelwright {
+
+/// The source of a load position's state: a position that was solved for, or the mirror image of that
+/// state in the plane of azimuth 0.
+struct PositionSource {
+  int solved;     ///< index of a solved position
+  bool is_image;  ///< whether its state must be reflected
+};
+
+/// The sources of all n load positions of a sector. If a position was omitted because another represents it,
+/// position i is the image of position n - i. (In the plane of azimuth 0, the image of position n - i lies a
+/// sector before position i.)
+std::vector<PositionSource> position_sources(const LoadPositions& solved, int n);
+
+}  // namespace wheelwright

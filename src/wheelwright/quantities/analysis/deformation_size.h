@@ -1,0 +1,44 @@
+#pragma once
+
+#include "wheelwright/mechanics/state/state.h"
+
+namespace wheelwright {
+
+/// How far the states of a shape are from the small deformations of linear elasticity: maxima over the solved
+/// load positions.
+struct DeformationSize {
+  double strain;       ///< absolute value of a principal strain
+  double rotation;     ///< of the material against the rim [rad]
+  double travel;       ///< of the rim, by the thickness of the ring
+  bool edges_overlap;  ///< deformed edges of holes or tread cross each other or themselves; only 2D
+};
+
+template <int dim>
+DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                 const State<dim>& state);
+
+/// The maximum travel of the rim over the thickness of the ring; costs nothing.
+template <int dim>
+double travel_by_thickness(const StateSolver<dim>& solver, const State<dim>& state);
+
+/// Whether the deformed edges of holes or tread cross at one of the solved positions. Edges are polylines of
+/// two pieces per cell. Not known in 3D, where it is false.
+template <int dim>
+bool edges_overlap(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state);
+
+/// The failure of states whose edges overlap. Looks only where the travel makes it possible.
+template <int dim>
+std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                         const State<dim>& state);
+
+/// Beyond these, results of linear elasticity deserve a warning.
+inline constexpr double small_strain = 0.05, small_travel = 0.1;
+
+/// The share of the load, at most 1, at which strain and travel would stay below these if both were
+/// proportional to the load.
+double share_of_small_load(const DeformationSize& size);
+
+/// Says what exceeds them and what that means; empty if nothing does.
+std::string deformation_warning(const DeformationSize& size);
+
+}  // namespace wheelwright

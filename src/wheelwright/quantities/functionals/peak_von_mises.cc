@@ -1,0 +1,81 @@
+#include "wheelwright/quantities/functionals/peak_von_mises.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/mechanics/state/material_integral.h"
+
+namespace wheelwright {
+template <int dim>
+void VonMisesPower<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
+  point.law.squared_von_mises(point.strains, values);
+  for (double& value : values) value = std::pow(value / (unit * unit), exponent_ / 2);
+}
+
+template <int dim>
+void VonMisesPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                                const StressRows<dim>& slopes) const {
+  std::vector<double> squares(point.n_cases());
+  point.law.squared_von_mises(point.strains, squares);
+  point.law.squared_von_mises_slope(point.strains, slopes);
+  for (int j = 0; j < point.n_cases(); ++j) {
+    const double slope = exponent_ / 2 * std::pow(squares[j] / (unit * unit), exponent_ / 2 - 1);
+    for (int k = 0; k < n_strains<dim>; ++k) slopes[k][j] *= factors[j] * slope / (unit * unit);
+  }
+}
+
+template <int dim>
+bool VonMisesPower<dim>::covers(const PolarGrid<dim>& grid, int row) const {
+  return row_is_inside(grid, row, from_tread_);
+}
+
+template <int dim>
+std::string PeakVonMises<dim>::name() const {
+  return from_tread_ > 0 ? "peak_von_mises_inside" : "peak_von_mises";
+}
+
+template <int dim>
+FunctionalValue<dim> PeakVonMises<dim>::evaluate(const StateSolver<dim>& solver, const LevelSet<dim>&,
+                                                 const State<dim>& state, const Matrix&) const {
+  constexpr double unit = VonMisesPower<dim>::unit;
+  const int n = state.positions().size();
+  std::vector<double> integrals(n, 0.0), squared_peaks(n, 0.0);
+  for_each_cell<dim>(solver, state, power_, [&](const StrainedCell<dim>& cell) {
+    Matrix squares(cell.strains.rows(), cell.n_points());
+    for (int q = 0; q < cell.n_points(); ++q)
+      cell.law.squared_von_mises(cell.at(q).strains,
+                                 {squares.column(q), static_cast<size_t>(squares.rows())});
+    for (int j = 0; j < squares.rows(); ++j)
+      for (int q = 0; q < cell.n_points(); ++q) {
+        const int position = j / cell.n_sectors;
+        const double square = squares(j, q);
+        squared_peaks[position] = std::max(squared_peaks[position], square);
+        integrals[position] += cell.weights[q] * std::pow(square / (unit * unit), norm_.exponent / 2);
+      }
+  });
+  FunctionalValue<dim> value;
+  std::vector<double> factors;
+  for (int i = 0; i < n; ++i) {
+    const auto norm = norm_.value(std::sqrt(squared_peaks[i]), integrals[i], unit);
+    value.by_position.push_back(norm.peak());
+    factors.push_back(norm.peak() / (norm_.exponent * integrals[i]));
+  }
+  value.derivative.integrals.push_back({&power_, std::move(factors)});
+  return value;
+}
+
+template <int dim>
+bool row_is_inside(const PolarGrid<dim>& grid, int row, double from_tread) {
+  const double height = grid.cell_size()[0];
+  const double outer = grid.inner_radius + (row + 1) * height;
+  return outer <= grid.outer_radius - from_tread + 1e-9 * height;
+}
+
+template class VonMisesPower<2>;
+template class PeakVonMises<2>;
+template decltype(row_is_inside<2>) row_is_inside<2>;
+template class VonMisesPower<3>;
+template class PeakVonMises<3>;
+template decltype(row_is_inside<3>) row_is_inside<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,179 @@
+#include "wheelwright/run/commands.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "wheelwright/case/load_case_change.h"
+#include "wheelwright/case/objective_weights.h"
+#include "wheelwright/case/shown_value.h"
+
+namespace wheelwright {
+namespace {
+
+CommandResult changed(RunControl& run, const Case& c, const std::string& what) {
+  if (auto refusal = run.change_case(c, what)) return *std::move(refusal);
+  return what;
+}
+
+template <DeclaredCommand... C>
+CommandKinds kinds_of() {
+  return {command_kind<C>()...};
+}
+
+std::string load_text(const Load& load) {
+  std::string text = load.travel ? fmt::format("rim travel {:.6g} m", *load.travel)
+                                 : fmt::format("force {:.6g} N", load.force);
+  if (load.horizontal_force != 0) text += fmt::format(", horizontal force {:.6g} N", load.horizontal_force);
+  if (load.lateral_force != 0) text += fmt::format(", lateral force {:.6g} N", load.lateral_force);
+  if (load.camber != 0) text += fmt::format(", camber {:.6g} deg", load.camber * 180 / std::numbers::pi);
+  if (load.torque != 0) text += fmt::format(", torque {:.6g} N m", load.torque);
+  if (load.hole_pressure != 0) text += fmt::format(", hole pressure {:.6g} Pa", load.hole_pressure);
+  if (load.body_force != Load{}.body_force)
+    text += fmt::format(", body force {:.6g} N/m^3", fmt::join(load.body_force, " and "));
+  if (load.speed != 0) text += fmt::format(", speed {:.6g} m/s", load.speed);
+  return text + fmt::format(", {} positions", load.positions);
+}
+
+}  // namespace
+
+CommandFields load_fields(Load& load) {
+  return {{"force_N", "", &load.force},
+          {"travel_m", "of the rim, in place of the force", &load.travel},
+          {"horizontal_force_N", "", &load.horizontal_force},
+          {"lateral_force_N", "", &load.lateral_force},
+          {"camber_rad", "", &load.camber},
+          {"torque_N_m", "", &load.torque},
+          {"body_force_N_per_m3", "[along the ground, down]", &load.body_force},
+          {"hole_pressure_Pa", "", &load.hole_pressure},
+          {"speed_m_per_s", "", &load.speed},
+          {"positions", "per sector", &load.positions}};
+}
+
+CommandFields NewLoad::fields() {
+  CommandFields fields{{"load_case", "its name; absent: the case has one load", &load_case}};
+  const CommandFields of_load = load_fields(load);
+  fields.insert(fields.end(), of_load.begin(), of_load.end());
+  return fields;
+}
+
+CommandKinds commands_of_every_run() {
+  return kinds_of<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, NewWidths, NewBound,
+                  Paint, MoveHole, FillHole, TakeShape, Reset, Undo>();
+}
+
+CommandResult Save::execute(RunControl& run) const {
+  run.save();
+  return fmt::format("shape {} is saved", run.iteration());
+}
+
+CommandResult Stop::execute(RunControl& run) const {
+  run.stop();
+  return fmt::format("stopping after shape {}, whose results are written now", run.iteration());
+}
+
+CommandResult Pause::execute(RunControl& run) const {
+  if (auto refusal = run.pause(0)) return *std::move(refusal);
+  return fmt::format("paused after shape {}", run.iteration());
+}
+
+CommandResult Continue::execute(RunControl& run) const {
+  if (auto refusal = run.continue_run()) return *std::move(refusal);
+  return std::string("continued");
+}
+
+CommandResult Step::execute(RunControl& run) const {
+  if (auto refusal = run.pause(1)) return *std::move(refusal);
+  return fmt::format("one more shape after shape {}", run.iteration());
+}
+
+CommandResult NewWeights::execute(RunControl& run) const {
+  Case c = run.current_case();
+  std::vector<std::string> words;
+  const auto set = [&](std::string_view quantity, const std::optional<double>& weight) {
+    if (!weight) return;
+    c.objective.*objective_weight(quantity)->weight = *weight;
+    words.push_back(fmt::format("{} {:.6g}", quantity, *weight));
+  };
+  set("strain_energy", strain_energy);
+  set("uniformity_annulus", uniformity_annulus);
+  set("uniformity_dual", uniformity_dual);
+  set("uniformity_l2", uniformity_l2);
+  return changed(run, c, fmt::format("new weights: {}", fmt::join(words, ", ")));
+}
+
+CommandResult NewLoad::execute(RunControl& run) const {
+  Case c = run.current_case();
+  if (!load_case) {
+    if (!c.load.cases.empty()) return Refusal{"the case has several loads: say which load case changes"};
+    c.load = load;
+    c.load.cases.clear();
+    return changed(run, c, "new load: " + load_text(load));
+  }
+  const auto found = std::ranges::find(c.load.cases, *load_case, &CaseLoad::name);
+  if (found == c.load.cases.end()) return Refusal{fmt::format("there is no load case {}", *load_case)};
+  if (!is_load_of_a_case(c.load, load))
+    return Refusal{"lateral force, camber and load positions are the same in all load cases"};
+  *found = changed_load_case(*found, c.load, load);
+  return changed(run, c, fmt::format("new load in {}: {}", *load_case, load_text(load)));
+}
+
+CommandResult NewWidths::execute(RunControl& run) const {
+  Case c = run.current_case();
+  std::vector<std::string> words;
+  const auto set = [&](const char* what, const std::optional<double>& width, std::optional<double>& place) {
+    if (!width) return;
+    place = *width != 0 ? width : std::nullopt;
+    words.push_back(*width != 0 ? fmt::format("{} {:.6g} m", what, *width) : fmt::format("any {}", what));
+  };
+  set("wall", minimum_wall, c.optimizer.minimum_wall);
+  set("gap", minimum_gap, c.optimizer.minimum_gap);
+  set("radius of corners", minimum_radius, c.optimizer.minimum_radius);
+  return changed(run, c, fmt::format("new least widths: {}", fmt::join(words, ", ")));
+}
+
+CommandResult NewBound::execute(RunControl& run) const {
+  Case c = run.current_case();
+  if (constraint < 0 || constraint >= static_cast<int>(c.constraints.size()))
+    return Refusal{"the case has no such bound"};
+  Constraint& bound = c.constraints[constraint];
+  std::vector<std::string> words;
+  const auto set = [&](const char* what, const std::optional<double>& value, std::optional<double>& place) {
+    if (!value) return;
+    place = value;
+    words.push_back(fmt::format("{} {}", what, shown_text(bound.quantity, *value, c.wheel)));
+  };
+  set("at least", at_least, bound.at_least);
+  set("at most", at_most, bound.at_most);
+  set("equal to", equals, bound.equals);
+  return changed(run, c,
+                 fmt::format("new bound: {} {}", wheelwright::name(bound.quantity), fmt::join(words, ", ")));
+}
+
+CommandResult TakeShape::execute(RunControl& run) const {
+  const std::string what = fmt::format("the shape of {}", file);
+  if (auto refusal = run.take_shape(file, what)) return *std::move(refusal);
+  return what;
+}
+
+CommandResult NewVolume::execute(RunControl& run) const {
+  Case c = run.current_case();
+  c.volume.target = target;
+  return changed(run, c, fmt::format("new target of the volume: {:.6g} of the ring", target));
+}
+
+CommandResult Reset::execute(RunControl& run) const {
+  if (auto refusal = run.reset()) return *std::move(refusal);
+  return std::string("back to the initial shape");
+}
+
+CommandResult Undo::execute(RunControl& run) const {
+  auto undone = run.undo();
+  if (!undone) return undone.failure();
+  return "undid: " + *undone;
+}
+
+}  // namespace wheelwright

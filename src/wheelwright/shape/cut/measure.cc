@@ -1,0 +1,77 @@
+#include "wheelwright/shape/cut/measure.h"
+
+#include <limits>
+
+#include "wheelwright/shape/cut/cell_quadrature.h"
+#include "wheelwright/shape/geometry/cell_map.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr int gauss_points = 4;
+
+template <int dim>
+double cell_measure(const CellMap<dim>& map, int degree, const std::vector<ReferencePoint<dim>>& points) {
+  double sum = 0;
+  for (const auto& point : points)
+    sum += point.weight * determinant<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi)));
+  return sum;
+}
+
+}  // namespace
+
+template <int dim>
+double material_measure(const LevelSet<dim>& psi) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto domain = cut_domain(psi, gauss_points);
+  return domain ? material_measure(*domain, psi.lattice.degree()) : unknown;
+}
+
+template <int dim>
+double material_measure(const CutDomain<dim>& domain, int map_degree) {
+  const PolarGrid<dim>& grid = domain.grid;
+  std::vector<double> full_cell(grid.cells[0]);
+  for (int radial = 0; radial < grid.cells[0]; ++radial)
+    full_cell[radial] = cell_measure<dim>(CellMap<dim>(grid, map_degree, {radial}), map_degree,
+                                          unit_cell_rule<dim>(gauss_points));
+  double sum = 0;
+  for (int cell = 0; cell < grid.n_cells(); ++cell)
+    if (domain.kinds[cell] == CellKind::inside) sum += full_cell[grid.cell_position(cell)[0]];
+  for (const CutCell<dim>& cut : domain.cut)
+    sum += cell_measure<dim>(CellMap<dim>(grid, map_degree, grid.cell_position(cut.cell)), map_degree,
+                             cut.material);
+  return sum;
+}
+
+template <int dim>
+std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
+  const PolarGrid<dim>& grid = psi.lattice.grid();
+  const int degree = psi.lattice.degree();
+  std::vector<SurfaceSample<dim>> samples;
+  CellQuadrature<dim> quadrature(degree, gauss_points);
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const auto values = psi.cell_values(cell);
+    if (quadrature.classify(values) != CellKind::cut) continue;
+    const auto split = quadrature.split(cell, values);
+    if (!split) continue;
+    const auto position = grid.cell_position(cell);
+    const CellMap<dim> map(grid, degree, position);
+    for (const auto& point : split->boundary) {
+      const auto surface =
+          map_surface<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi)), point.normal);
+      samples.push_back({{cell, point.xi, rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
+                          point.weight * surface.scale},
+                         1});
+    }
+  }
+  return samples;
+}
+
+template double material_measure(const LevelSet<2>&);
+template double material_measure(const LevelSet<3>&);
+template double material_measure(const CutDomain<2>&, int);
+template double material_measure(const CutDomain<3>&, int);
+template decltype(boundary_samples<2>) boundary_samples<2>;
+template decltype(boundary_samples<3>) boundary_samples<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,57 @@
+#include "wheelwright/shape/evolution/deformation_space.h"
+
+#include "wheelwright/shape/evolution/multilinear.h"
+
+namespace wheelwright {
+
+template <int dim>
+DeformationSpace<dim>::DeformationSpace(const Lattice<dim>& lattice, std::vector<bool> fixed, double length,
+                                        DeformationKind kind)
+    : lattice_(lattice),
+      fixed_(std::move(fixed)),
+      kind_(kind),
+      form_(with_fixed_nodes(multilinear_form<dim>(lattice, 1, length * length), fixed_)),
+      factor_(*SparseSpd::factor(lattice.n_nodes(), form_)) {}
+
+template <int dim>
+std::vector<double> DeformationSpace<dim>::representative(std::span<const double> load) const {
+  return by_component(load, [&](const auto& part) { return factor_.solve(restricted(part)); });
+}
+
+template <int dim>
+std::vector<double> DeformationSpace<dim>::load(std::span<const double> deformation) const {
+  return by_component(deformation,
+                      [&](const auto& part) { return symmetric_product(form_, restricted(part)); });
+}
+
+template <int dim>
+std::vector<double> DeformationSpace<dim>::speeds(const LevelSet<dim>& psi,
+                                                  std::span<const double> deformation) const {
+  return restricted(motion_of(psi, {}).speeds_at_nodes(deformation));
+}
+
+/// The values with zeros at the fixed nodes.
+template <int dim>
+std::vector<double> DeformationSpace<dim>::restricted(std::span<const double> component) const {
+  std::vector<double> result(component.begin(), component.end());
+  for (std::size_t node = 0; node < result.size(); ++node)
+    if (fixed_[node]) result[node] = 0;
+  return result;
+}
+
+template <int dim>
+template <class Function>
+std::vector<double> DeformationSpace<dim>::by_component(std::span<const double> vector,
+                                                        Function function) const {
+  std::vector<double> result;
+  for (int k = 0; k < n_components(); ++k) {
+    const auto part = function(vector.subspan(k * fixed_.size(), fixed_.size()));
+    result.insert(result.end(), part.begin(), part.end());
+  }
+  return result;
+}
+
+template class DeformationSpace<2>;
+template class DeformationSpace<3>;
+
+}  // namespace wheelwright

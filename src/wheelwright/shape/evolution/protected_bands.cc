@@ -1,0 +1,72 @@
+#include "wheelwright/shape/evolution/protected_bands.h"
+
+namespace wheelwright {
+
+namespace {
+
+/// How close to the edge of the range a boundary counts as lying on it, in units of the resolution.
+constexpr double near_edge = 0.1;
+
+}  // namespace
+
+template <int dim>
+ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, const Bands& bands)
+    : grid_(lattice.grid()),
+      range_(hole_range(grid_, bands)),
+      nodes_(lattice.n_nodes()),
+      upper_bound_(lattice.n_nodes()) {
+  const double rounding = 1e-9 * grid_.resolution();
+  for (int node = 0; node < lattice.n_nodes(); ++node) {
+    const double radius = lattice.polar_point(node)[0];
+    nodes_[node] = radius < grid_.inner_radius + bands.rim.thickness - rounding ||
+                   radius > grid_.outer_radius - bands.tread.thickness + rounding;
+    upper_bound_[node] = distance(radius);
+  }
+}
+
+/// Radial distance to the nearest edge of the range of holes; negative outside of it.
+template <int dim>
+double ProtectedBands<dim>::distance(double radius) const {
+  return std::min(radius - range_.inner, range_.outer - radius);
+}
+
+template <int dim>
+bool ProtectedBands<dim>::touches(const SurfacePoint<dim>& point) const {
+  const double radius =
+      grid_.inner_radius + (grid_.cell_position(point.cell)[0] + point.xi[0]) * grid_.cell_size()[0];
+  return distance(radius) < near_edge * grid_.resolution();
+}
+
+template <int dim>
+LevelSet<dim> ProtectedBands<dim>::keep(LevelSet<dim> psi) const {
+  for (std::size_t node = 0; node < psi.values.size(); ++node)
+    psi.values[node] = std::min(psi.values[node], upper_bound_[node]);
+  return psi;
+}
+
+template <int dim>
+std::vector<ShapeEvent<dim>> ProtectedBands<dim>::contacts(const Components<dim>& before,
+                                                           const Components<dim>& after) const {
+  const double reach = near_edge * grid_.resolution() + after.samples.spacing()[0];
+  const auto at_rim = [&](const Component<dim>& hole) { return hole.innermost[0] - range_.inner < reach; };
+  const auto at_tread = [&](const Component<dim>& hole) { return range_.outer - hole.outermost[0] < reach; };
+  const auto were = overlapping_holes(after, before);
+  std::vector<ShapeEvent<dim>> events;
+  for (std::size_t k = 0; k < after.all.size(); ++k) {
+    const Component<dim>& hole = after.all[k];
+    if (hole.is_material) continue;
+    const auto was = [&](const auto& there) {
+      return std::any_of(were[k].begin(), were[k].end(), [&](int old) { return there(before.all[old]); });
+    };
+    if (at_rim(hole) && !was(at_rim))
+      events.push_back({ShapeEventKind::hole_at_rim_band, hole.innermost, hole.measure});
+    if (at_tread(hole) && !was(at_tread))
+      events.push_back({ShapeEventKind::hole_at_tread_band, hole.outermost, hole.measure});
+  }
+  return events;
+}
+
+template class ProtectedBands<2>;
+template class ProtectedBands<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "wheelwright/shape/geometry/bands.h"
+#include "wheelwright/shape/geometry/topology.h"
+
+namespace wheelwright {
+
+/// The bands along the rim and the tread that stay material.
+template <int dim>
+class ProtectedBands {
+ public:
+  ProtectedBands(const Lattice<dim>& lattice, const Bands& bands);
+
+  /// One flag per lattice node, true in a band.
+  const std::vector<bool>& nodes() const { return nodes_; }
+
+  /// Clips holes at the edges of hole_range(): returns the minimum of psi and of the distance to the nearest
+  /// edge. A signed distance whose holes lie within the range is not changed.
+  LevelSet<dim> keep(LevelSet<dim> psi) const;
+
+  /// One event for each hole of `after` that reaches a band, up to about one sample spacing, if no
+  /// overlapping hole of `before` did. The place of the event is at the band.
+  std::vector<ShapeEvent<dim>> contacts(const Components<dim>& before, const Components<dim>& after) const;
+
+  /// Whether keep() would clip the value of a node, or its value is within `margin` [m] of that.
+  bool is_clipped(int node, double value, double margin) const { return value > upper_bound_[node] - margin; }
+
+  /// Whether a boundary point lies where keep() stops the boundary, up to a tenth of the resolution.
+  bool touches(const SurfacePoint<dim>& point) const;
+
+ private:
+  double distance(double radius) const;
+
+  PolarGrid<dim> grid_;
+  HoleRange range_;
+  std::vector<bool> nodes_;
+  std::vector<double> upper_bound_;
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,129 @@
+#include "wheelwright/shape/evolution/transport.h"
+
+#include "wheelwright/linalg/dense.h"
+#include "wheelwright/shape/evolution/boundary_motion.h"
+#include "wheelwright/shape/evolution/lattice_strides.h"
+
+namespace wheelwright {
+
+namespace {
+
+constexpr double cfl_number = 0.5;
+constexpr int n_ghosts = 2;
+
+double minmod(double a, double b) {
+  if (a * b <= 0) return 0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+/// Copies the lattice line that starts at node `first` along one axis, with two ghost values at each end.
+template <int dim>
+void read_line(const Lattice<dim>& lattice, const std::vector<double>& phi, int first, int axis,
+               std::vector<double>& line) {
+  const int n = lattice.nodes()[axis], stride = lattice_strides(lattice)[axis];
+  line.resize(n + 2 * n_ghosts);
+  double* value = line.data() + n_ghosts;
+  for (int i = 0; i < n; ++i) value[i] = phi[first + i * stride];
+  for (int g = 1; g <= n_ghosts; ++g) {
+    if (axis == 1) {
+      value[-g] = value[((-g) % n + n) % n];
+      value[n - 1 + g] = value[(g - 1) % n];
+    } else {
+      value[-g] = 2 * value[1 - g] - value[2 - g];
+      value[n - 1 + g] = 2 * value[n - 2 + g] - value[n - 3 + g];
+    }
+  }
+}
+
+/// Square of the one-sided derivative that Godunov's scheme selects for a front with this speed.
+double upwind_square(double backward, double forward, double speed) {
+  const double b = speed > 0 ? std::max(backward, 0.0) : std::min(backward, 0.0);
+  const double f = speed > 0 ? std::min(forward, 0.0) : std::max(forward, 0.0);
+  return std::max(b * b, f * f);
+}
+
+/// |grad phi|^2 at all nodes, upwind with respect to the sign of the velocity.
+template <int dim>
+std::vector<double> squared_gradient(const Lattice<dim>& lattice, const std::vector<double>& phi,
+                                     std::span<const double> velocity) {
+  const auto stride = lattice_strides(lattice);
+  std::vector<double> result(phi.size()), line;
+  for (int axis = 0; axis < dim; ++axis)
+    for (int first = 0; first < lattice.n_nodes(); ++first) {
+      const auto position = lattice.node_position(first);
+      if (position[axis] != 0) continue;
+      read_line(lattice, phi, first, axis, line);
+      const double radius = lattice.polar_point(position)[0];
+      for (int i = 0; i < lattice.nodes()[axis]; ++i) {
+        const int node = first + i * stride[axis];
+        if (velocity[node] == 0) continue;
+        const double* v = line.data() + n_ghosts + i;
+        const double curvature = v[-1] - 2 * v[0] + v[1];
+        const double backward = v[0] - v[-1] + 0.5 * minmod(v[-2] - 2 * v[-1] + v[0], curvature);
+        const double forward = v[1] - v[0] - 0.5 * minmod(curvature, v[0] - 2 * v[1] + v[2]);
+        const double length = lattice.spacing()[axis] * (axis == 1 ? radius : 1);
+        result[node] += upwind_square(backward, forward, velocity[node]) / (length * length);
+      }
+    }
+  return result;
+}
+
+/// One explicit Euler step.
+template <int dim>
+void euler_step(const Lattice<dim>& lattice, std::span<const double> velocity, double dt,
+                std::vector<double>& phi) {
+  const auto gradient = squared_gradient(lattice, phi, velocity);
+  for (std::size_t node = 0; node < phi.size(); ++node)
+    phi[node] -= dt * velocity[node] * std::sqrt(gradient[node]);
+}
+
+/// Maximum number of nodes that a front crosses per unit of time [1/s].
+template <int dim>
+double crossing_rate(const Lattice<dim>& lattice, std::span<const double> velocity) {
+  double rate = 0;
+  for (int node = 0; node < lattice.n_nodes(); ++node) {
+    if (velocity[node] == 0) continue;
+    Vec<dim> length = lattice.spacing();
+    length[1] *= lattice.polar_point(node)[0];
+    double inverse_length = 0;
+    for (double l : length) inverse_length += 1 / l;
+    rate = std::max(rate, std::abs(velocity[node]) * inverse_length);
+  }
+  return rate;
+}
+
+}  // namespace
+
+template <int dim>
+LevelSet<dim> transport(const LevelSet<dim>& psi, std::span<const double> velocity, double time) {
+  const int n_steps = static_cast<int>(std::ceil(crossing_rate(psi.lattice, velocity) * time / cfl_number));
+  const double dt = time / std::max(n_steps, 1);
+  std::vector<double> phi = psi.values;
+  for (int step = 0; step < n_steps; ++step) {
+    std::vector<double> twice = phi;
+    euler_step(psi.lattice, velocity, dt, twice);
+    euler_step(psi.lattice, velocity, dt, twice);
+    for (std::size_t node = 0; node < phi.size(); ++node) phi[node] = 0.5 * (phi[node] + twice[node]);
+  }
+  return {psi.lattice, std::move(phi)};
+}
+
+template <int dim>
+LevelSet<dim> smooth_transport(const LevelSet<dim>& psi, std::span<const double> velocity, double time) {
+  constexpr double short_move = 0.3;  // cells
+  LevelSet<dim> phi = transport<dim>(psi, velocity, time);
+  const double moved = time * largest_magnitude(velocity) / (short_move * psi.lattice.grid().resolution());
+  const double share = std::exp(-0.5 * moved * moved);
+  const auto godunov = squared_gradient(psi.lattice, psi.values, velocity);
+  const auto central = gradients_at_nodes<dim>(psi);
+  for (std::size_t node = 0; node < phi.values.size(); ++node)
+    phi.values[node] += share * time * velocity[node] * (std::sqrt(godunov[node]) - norm<dim>(central[node]));
+  return phi;
+}
+
+template decltype(smooth_transport<2>) smooth_transport<2>;
+template decltype(smooth_transport<3>) smooth_transport<3>;
+template decltype(transport<2>) transport<2>;
+template decltype(transport<3>) transport<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <algorithm>
+
+#include "wheelwright/shape/geometry/polar_grid.h"
+
+namespace wheelwright {
+
+/// A band along the rim or the tread that stays material.
+struct Band {
+  double thickness = 0;  ///< [m]
+  int full_rows = 0;     ///< rows of cells at this edge that the solver cannot cut; they are inside the band
+};
+
+struct Bands {
+  Band rim, tread;
+};
+
+/// Radii between which holes may lie [m].
+struct HoleRange {
+  double inner, outer;
+};
+
+/// Holes keep a distance of a thousandth of the resolution from the bands: rounding would decide on which
+/// side of a grid line a boundary lies. They keep a tenth of the resolution from the full rows: a quadratic
+/// level set may overshoot into a row between a node on its edge and the next node.
+template <int dim>
+HoleRange hole_range(const PolarGrid<dim>& grid, const Bands& bands) {
+  const double h = grid.resolution();
+  const auto thickness = [&](const Band& band) {
+    return std::max(band.thickness + 0.001 * h, band.full_rows * grid.cell_size()[0] + 0.1 * h);
+  };
+  return {grid.inner_radius + thickness(bands.rim), grid.outer_radius - thickness(bands.tread)};
+}
+
+}  // namespace wheelwright
