@@ -220,9 +220,13 @@ TEST_F(OwnQuantity, IsInHistoryPagesAndCheckpointsWithItsUnit) {
   const auto summary = nlohmann::json::parse(file("straight", "summary.json"));
   EXPECT_EQ(summary["bounds"][0]["name"], "outer_edges");
   EXPECT_EQ(summary["bounds"][0]["unit"], "m");
+  const double edges = summary["after"]["outer_edges_m"];
+  EXPECT_NEAR(edges, summary["bounds"][0]["value"].get<double>(), 1e-9);
   const std::string page = file("straight", "report.html");
   EXPECT_NE(page.find("\"bound_units\":[{\"unit\":\"mm\""), std::string::npos);
   EXPECT_NE(page.find("\"outer_edges [m]\""), std::string::npos);
+  EXPECT_NE(page.find("{\"key\":\"outer_edges_m\",\"label\":\"outer_edges\",\"unit\":\"mm\""),
+            std::string::npos);
 
   {
     auto run = wheelwright::Run<2>::begin(c, folder() / "stopped");
