@@ -68,7 +68,8 @@ using OwnNumbers = std::function<std::vector<OwnNumber>(const SolvedStates<dim>&
 template <int dim>
 DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                     double volume_fraction, const SolvedStates<dim>& states,
-                                    const LoadCases<dim>& cases, const OwnNumbers<dim>& own_numbers = {});
+                                    const LoadCases<dim>& cases,
+                                    const OwnNumbers<dim>& own_numbers = OwnNumbers<dim>());
 
 /// The wheel under the load case of that name; null if it has none.
 template <int dim>
