@@ -196,7 +196,7 @@ TEST(Analysis, DeformationOfThePapersWheelIsSmall) {
   EXPECT_FALSE(size.edges_overlap);
   EXPECT_EQ(deformation_warning(size), "");
   EXPECT_EQ(size.strain, std::ranges::max((*state)->strain_peaks().principal));
-  // Twice the load deforms nearly twice as much: the contact alone is not linear.
+  // Twice the load deforms nearly twice as much: only the contact is not linear.
   auto doubled = model;
   doubled.load *= 2;
   const auto other = RollingProblem<2>::create(doubled);

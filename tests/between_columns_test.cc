@@ -214,8 +214,8 @@ TEST(BetweenColumns, AUniformRingTendsToBeUniform) {
     EXPECT_TRUE(s);
     const Matrix mean = mean_observations(problem->tread_surface(), **s);
     std::vector<double> result;
-    for (const auto& [weight, functional, load_case] : uniformity_functionals(*problem))
-      result.push_back(value_of<2>(*functional, *problem, solid, **s, mean) / model.n_positions);
+    for (const auto& term : uniformity_functionals(*problem))
+      result.push_back(value_of<2>(*term.functional, *problem, solid, **s, mean) / model.n_positions);
     return result;
   };
   const auto coarse = values(1), fine = values(2);

@@ -31,7 +31,7 @@ Evaluation<2> evaluated(const Case& c) {
   return shape->evaluation;
 }
 
-// The same quantity in its three forms: the mean and the greatest of the single positions. Positions 1 and 3
+// The same quantity in its three forms: the mean and the largest of the single positions. Positions 1 and 3
 // are mirror images and share a bound.
 TEST(BoundedFunctions, AggregateMeanWorstOrEachPosition) {
   Case c = small_case();

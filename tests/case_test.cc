@@ -775,7 +775,7 @@ TEST(Derived, MinimumGammaAtThePapersThetas) {
   EXPECT_DOUBLE_EQ(minimum_gamma_0(1, stiffer), minimum_gamma_0(1, material));
 }
 
-// At half of the least value the tread's stiffness is indefinite, for every aspect; the least one is enough.
+// At half of the minimum the tread's stiffness is indefinite, for every aspect; the minimum is enough.
 TEST(Derived, MinimumGammaFollowsTheAspectOfTheCells) {
   for (const int angular_cells : {62, 124, 248}) {
     Case c;
@@ -837,7 +837,7 @@ TEST(Conflicts, HolesMayTouchTheBandsButNotEnterThem) {
   EXPECT_EQ(conflicts(c).size(), 1u);
 }
 
-// A default band is thinner than the rows of cells that must be full on coarse grids alone.
+// A default band is thinner than the rows of cells that must be full only on coarse grids.
 TEST(Conflicts, CoarseGridsNeedTheirOwnBands) {
   const auto n = [](int radial_cells, std::optional<double> rim, std::optional<double> tread) {
     Case c;

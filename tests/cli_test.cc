@@ -363,7 +363,8 @@ TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
   EXPECT_EQ(functions, 2) << outcome.output;
 }
 
-// Exploring the least mass once drew starts without end, and neither time nor a signal ended it.
+// Exploring a case that minimizes its mass once generated starts forever, and neither time nor a signal ended
+// it.
 TEST_F(CommandLine, ExploreStopsWhileGeneratingStarts) {
   std::ofstream(folder() / "mass.toml") << R"([[holes.ring]]
 count = 16
@@ -587,7 +588,7 @@ TEST_F(CommandLine, GivingUpExitsWithCode3AndLeavesAReport) {
   EXPECT_EQ(wheelwright(fmt::format("check {}", in_folder("run/failure/case.toml"))).code, exit_done);
 }
 
-// It goes on from the last accepted shape, tries the next as before and fails as before.
+// It continues from the last accepted shape, tries the next as before and fails as before.
 TEST_F(CommandLine, ResumedRunGivesUpInTheSameWay) {
   std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.24", 1);
   ASSERT_EQ(wheelwright("run c.toml --output run", folder()).code, exit_no_solution);

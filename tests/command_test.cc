@@ -77,7 +77,7 @@ class RunTest : public TemporaryFolder {
   }
 };
 
-/// Pushes a command when this shape is accepted, not when it is evaluated anew.
+/// Pushes a command when this shape is accepted, not when it is evaluated again.
 Recorder::Reaction after_shape(int shape, CommandQueue& commands, const Command& command) {
   return [shape, &commands, command](const TrialDone<2>& done) {
     const bool is_anew = done.state.iteration > 0 && done.trial.step == 0;
@@ -373,7 +373,7 @@ TEST_F(RunTest, NewWeightsMayAddAFunctional) {
   const auto column = column_of(run, "uniformity_dual [J/m]");
   const auto energy = column_of(run, "strain_energy [J/m]"), objective = column_of(run, "objective [J/m]");
   const auto iteration = column_of(run, "iteration"), step = column_of(run, "step [m]");
-  bool is_changed = false;  // from the row on in which shape 3 is evaluated anew
+  bool is_changed = false;  // from the row on in which shape 3 is evaluated again
   for (std::size_t row = 0; row < column.size(); ++row) {
     is_changed = is_changed || (iteration[row] == "3" && step[row] == "0");
     if (objective[row].empty()) continue;

@@ -194,7 +194,7 @@ TEST(NewtonTangent, IsTheTangentOfEveryIterate) {
   ContactUnknowns<2> x = start_from(contact, s->states[0]);
   expect_equal_steps(x);
   const int n = contact.n_points();
-  for (int changed = 1; changed < n; changed *= 3) {  // few points, and so many that it is factored anew
+  for (int changed = 1; changed < n; changed *= 3) {  // few points, and so many that it is factored again
     for (int i = 0; i < changed; ++i) {
       Vec<2>& z = x.augmented[(n / 2 + 7 * i) % n];
       z = i % 3 == 0 ? Vec<2>{std::abs(z[0]) + 1, 0} : Vec<2>{-std::abs(z[0]) - 1, i % 2 == 0 ? 1e9 : 0.0};

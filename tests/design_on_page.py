@@ -1,4 +1,4 @@
-"""Designs a wheel on the page of `wheelwright watch` alone, from a preset to a STEP file, by mouse and keyboard: the steps of
+"""Designs a wheel using only the page of `wheelwright watch`, from a preset to a STEP file, by mouse and keyboard: the steps of
 docs/watch.md. The test of the page looks at what each of them changes, and scripts/draw-watch draws them."""
 
 import json

@@ -8,6 +8,9 @@ from pathlib import Path
 PAGES = sorted([Path("README.md"), Path("CONTRIBUTING.md"), Path("CHANGELOG.md"), *Path("docs").glob("*.md")])
 CODE_BLOCK = re.compile(r"^ *```.*?^ *```$|^(?:    [^\n]*\n)+", re.MULTILINE | re.DOTALL)
 
+SOURCE_ENDINGS = (".cc", ".h", ".in", ".cmake", ".py", ".sh", ".js", ".html", ".css", ".toml", ".txt", ".json", ".bash")
+NAMES_OF_OTHERS = {"MyLaw", "benchmark_filter"}
+
 
 def text_of(page):
     return page.read_text(encoding="utf-8")
@@ -82,6 +85,25 @@ class Docs(unittest.TestCase):
                     wrong.append(f"{page}: {name}")
         self.assertEqual(wrong, [])
         self.assertGreater(n_names, 100)
+
+    def test_identifiers_that_are_named_exist(self):
+        sources = [file for top in ("src", "tests", "scripts", "bench", "cmake", "packaging", "examples", "cases")
+                   for file in Path(top).rglob("*") if file.suffix in SOURCE_ENDINGS or (top == "scripts" and file.is_file())]
+        text = " ".join(file.read_text(encoding="utf-8", errors="replace")
+                        for file in [*sources, Path("CMakeLists.txt"), Path("CMakePresets.json"), Path("tests/CMakeLists.txt")])
+        known = {*re.findall(r"\w+", text), *(file.stem for file in sources)}
+        n_names, wrong = 0, []
+        for page in PAGES:
+            if page.name == "CHANGELOG.md":
+                continue
+            for code in re.findall(r"`([^`\n]+)`", prose(page)):
+                without_files = re.sub(r"[\w./-]+\.(?:cc|h|py|sh|txt|json|csv|svg|toml|html|vtu|jsonl)\b", "", code)
+                for name in re.findall(r"\b[A-Za-z]\w*(?:_[a-z]|[a-z][A-Z])\w*", without_files):
+                    n_names += 1
+                    if name not in known and name not in NAMES_OF_OTHERS:
+                        wrong.append(f"{page}: {name}")
+        self.assertEqual(wrong, [])
+        self.assertGreater(n_names, 400)
 
     def test_generated_parts_have_a_begin_and_an_end(self):
         for page in PAGES:

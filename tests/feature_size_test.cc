@@ -90,7 +90,7 @@ TEST(FeatureSize, ThinWallsGetTheMinimumThickness) {
         const auto thick = with_thick_walls(psi, wall);
         EXPECT_GT(wall_of(thick), 0.99 * wall);
         EXPECT_LT(wall_of(thick), 1.04 * wall);
-        // Material is added, never taken; and it is added near the wall alone.
+        // Material is added, never taken; and only near the wall.
         for (size_t i = 0; i < psi.values.size(); ++i) EXPECT_LE(thick.values[i], psi.values[i]);
         EXPECT_LT(material_measure(thick) - material_measure(psi), 0.02 * wall);
         // Once is enough.
@@ -254,7 +254,7 @@ TEST(FeatureSize, AShapeOfAGivenMeasureHasTheWidthsToo) {
   }
 }
 
-/// A run that begins anew at a shape that it accepted begins at that very shape; walls that are missed by
+/// A run that restarts from a shape that it accepted starts with that very shape; walls that are missed by
 /// more than is accepted are made thick.
 TEST(FeatureSize, AnAcceptedShapeIsAcceptedUnchanged) {
   const auto grid = grid_of(28, 384);

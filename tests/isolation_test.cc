@@ -16,7 +16,7 @@
 #include "tests/run_support.h"
 #include "wheelwright/app/exit_code.h"
 
-// What a run takes from its surroundings, and what it leaves there: it writes into its folder alone, shows a
+// What a run takes from its surroundings, and what it leaves there: it writes only into its folder, shows a
 // title as text, and knows no locale.
 
 namespace wheelwright {

@@ -415,7 +415,7 @@ TEST_F(Killed, SecondSignalExitsAtOnce) {
   const fs::path place = workplace("twice", endless);
   Program program(place, begin);
   wait_for_shape(place, 4);
-  // Both are pending when it goes on, so that the second comes before the loop has asked for the first.
+  // Both are pending when it continues, so that the second comes before the loop has asked for the first.
   for (const int signal : {SIGSTOP, SIGINT, SIGTERM, SIGCONT}) program.send(signal);
   const int code = program.wait();
   EXPECT_TRUE(code == exit_interrupted || code == exit_terminated) << code;

@@ -42,7 +42,7 @@ class LoadCaseResults : public TemporaryFolder {
   }
 };
 
-/// Every number under the kerb is that of the same wheel with the kerb's load alone.
+/// Every number under the kerb is that of the same wheel with only the kerb's load.
 TEST_F(LoadCaseResults, AreThoseOfEachLoadAlone) {
   Case both = case_of(two_loads());
   both.optimizer.iterations = 0;

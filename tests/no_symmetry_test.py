@@ -79,7 +79,7 @@ pictures_every = 1
 """
 
 
-# --- Geometry, from the case alone ----------------------------------------------------------------------
+# --- Geometry, only from the case ----------------------------------------------------------------------
 
 
 def rotated(x, y, angle):

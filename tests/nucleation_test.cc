@@ -13,7 +13,7 @@
 namespace wheelwright::testing {
 namespace {
 
-/// The middles of all cells, with a cost that is least at one place of the sector.
+/// The middles of all cells, with a cost that is smallest at one place of the sector.
 struct Costs {
   std::vector<MaterialPoint<2>> points;
   std::vector<double> values;

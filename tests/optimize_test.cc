@@ -195,7 +195,7 @@ TEST(SequentialQuadratic, ConvergesToTheLevelLineInFewTrials) {
 }
 
 // A search ends six trials after its last gain of the tolerance, begin it far from the optimum or at it.
-// Without a tolerance it continues until no step helps. A restart begins the count anew.
+// Without a tolerance it continues until no step helps. A restart resets the count.
 TEST(SequentialQuadratic, EndsSixTrialsAfterItsLastGain) {
   OptimizerOptions options;
   options.method = Method::sequential_quadratic;

@@ -90,7 +90,8 @@ TEST(OwnMirrorImage, OfASymmetricWheelHasOppositeValuesAtMirrorImages) {
   const auto evaluation = evaluate_objective<2>(*problem, {{1, std::make_shared<PressureMoment<2>>(1)}},
                                                 symmetric_hole(problem->model().grid));
   ASSERT_TRUE(evaluation);
-  const auto& [name, value, moments, gradient, bounds, edges] = evaluation->functions[0];
+  const double value = evaluation->functions[0].value;
+  const std::vector<double>& moments = evaluation->functions[0].by_position;
   ASSERT_EQ(moments.size(), 4u);
   const double size = std::abs(moments[1]);
   EXPECT_GT(size, 0.01);

@@ -35,7 +35,7 @@ RollingModel<3> with_width(const RollingModel<2>& plane, int axial_cells, SideFa
                 {grid.cells[0], grid.cells[1], axial_cells}};
   model.degree = plane.degree;
   model.cut_points = plane.cut_points;
-  model.materials = plane.materials;
+  model.materials = *plane.materials.at_tread().isotropic();
   model.ghost = plane.ghost;
   model.side_faces = sides;
   model.contact = plane.contact;

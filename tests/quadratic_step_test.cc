@@ -200,7 +200,7 @@ TEST(ShiftedHessian, MeetsTheSecantEquationOfTheNewestPair) {
 }
 
 /// B by the recursion B+ = B - B s (B s)^T / (s, B s) + y y^T / (y, s), as a matrix that acts on vectors. It
-/// begins with the least curvature of the pairs.
+/// begins with the smallest curvature of the pairs.
 Matrix bfgs_matrix(const Sampled& s, int first_move) {
   const int n = static_cast<int>(s.span.front().size());
   double scale = std::numeric_limits<double>::infinity();

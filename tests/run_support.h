@@ -56,8 +56,8 @@ checkpoint_seconds = 0
                                    iterations, more);
 }
 
-/// The same, whose last shapes need no least widths. If it is extended, it is the same as one of more shapes:
-/// the widths are asked for when a third of the shapes is left.
+/// The same, whose last shapes need no minimum widths. If it is extended, it is the same as one of more
+/// shapes: the widths are asked for when a third of the shapes is left.
 inline std::string small_case_of_any_width(int iterations, const std::string& more = "") {
   std::string text = small_case(iterations, more);
   const std::string section = "[optimizer]\n";

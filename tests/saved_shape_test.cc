@@ -320,6 +320,39 @@ TEST_F(CoarseLevels, StoppedRunContinuesIdenticallyFromEitherGrid) {
   }
 }
 
+/// Notes the stages that a run leaves out.
+class FailedStages : public Observer<2> {
+ public:
+  explicit FailedStages(std::vector<StageFailed>& seen) : seen_(seen) {}
+  void operator()(const Event<2>& event, const RunView<2>&) override {
+    if (const auto* failed = std::get_if<StageFailed>(&event)) seen_.push_back(*failed);
+  }
+
+ private:
+  std::vector<StageFailed>& seen_;
+};
+
+// The walls between the holes are thinner than a coarse cell.
+TEST_F(CoarseLevels, GridThatFailsIsReportedAndLeftOut) {
+  const std::string wheel = "[wheel]\nsectors = 8\n[load]\npositions = 1\n";
+  const std::string holes = "[[holes.ring]]\ncount = 16\ncenter_radius = 0.266\nradius = 0.05\n";
+  const std::string optimizer =
+      "[optimizer]\niterations = 2\nrim_band = 0.0125\ntread_band = 0.02\ncoarse_levels = ";
+  auto begun =
+      wheelwright::Run<2>::begin(read(wheel + holes + small_grid + optimizer + "1"), folder() / "run");
+  ASSERT_TRUE(begun);
+  std::vector<StageFailed> failed;
+  begun->add(std::make_unique<FailedStages>(failed));
+  CommandQueue commands;
+  const auto result = begun->execute(commands);
+  ASSERT_EQ(failed.size(), 1U);
+  EXPECT_NE(failed[0].stage.find("7 x 64"), std::string::npos) << failed[0].stage;
+  EXPECT_FALSE(failed[0].reason.empty());
+  const auto direct = run(read(wheel + holes + small_grid + optimizer + "0"), "direct");
+  EXPECT_EQ(result.state->iteration, 2);
+  EXPECT_EQ(result.state->shape.values, direct.state->shape.values);
+}
+
 TEST_F(CoarseLevels, KeepSizesGivenInMetres) {
   const Case c = read(uneven_wheel + uneven_holes +
                       "[grid]\nradial_cells = 56\nangular_cells = 512\n[objective]\nuniformity_annulus = 1\n"

@@ -19,7 +19,7 @@
 #include "wheelwright/web/server/request_rules.h"
 #include "wheelwright/web/server/token.h"
 
-// A server for the pages of this user alone, tried by plain sockets: what a browser would never send, and
+// A server only for the pages of this user, tested by plain sockets: what a browser would never send, and
 // what other pages, other users and broken clients would.
 
 namespace wheelwright {

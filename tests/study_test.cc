@@ -261,7 +261,7 @@ TEST(ObjectiveOfACase, MatchesTheAnnulusWithTheDualTerm) {
   EXPECT_NEAR(e.function("objective").value, (0.7 + 23) * dual->value, 1e-10 * dual->value);
 }
 
-// With a held mean the objective depends on the previous shape's mean alone, and on nothing that was
+// With a held mean the objective depends only on the previous shape's mean, and on nothing that was
 // evaluated before.
 TEST(ObjectiveOfACase, ComparesWithThePreviousMeanIfHeld) {
   Case c = uneven_case();

@@ -127,7 +127,7 @@ Evaluation<dim> evaluation_with(double objective, const std::vector<SurfaceSampl
   return evaluation;
 }
 
-/// An objective that depends on the shape alone and hands out no solution, for the loop.
+/// An objective that depends only on the shape and provides no solution, for the loop.
 template <int dim, class EvaluateShape>
 typename ShapeOptimizer<dim>::Evaluate objective_of_shape(EvaluateShape evaluate) {
   return [evaluate](const CutShape<dim>& shape, const Evaluation<dim>*) mutable -> Expected<Evaluated<dim>> {

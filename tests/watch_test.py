@@ -824,7 +824,7 @@ class SolidPage(PageTest):
 
 
 class Design(unittest.TestCase):
-    """A wheel is designed on the page alone, from a preset to a STEP file."""
+    """A wheel is designed using only the page, from a preset to a STEP file."""
 
     def test_from_a_preset_to_a_step_file(self):
         with tempfile.TemporaryDirectory() as temporary, contextlib.ExitStack() as at_end:

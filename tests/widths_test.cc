@@ -130,7 +130,7 @@ TYPED_TEST(WidthsOf, RadiiOfCornersChangeAsTheirDerivativeSays) {
   EXPECT_LT(last, 0.05 * std::abs(1e-3 * slope));
 }
 
-/// A wall, and a gap, are found where they are narrower than the least width and the reach together, at their
+/// A wall, and a gap, are found where they are narrower than the minimum width plus the reach, at their
 /// place.
 TEST(Widths, AreThoseWithinReach) {
   const auto lattice = lattice_of<2>();

@@ -22,7 +22,7 @@ def parsed(arguments):
         f"not caught, or when fewer than {100 * LEAST_CAUGHT:.0f} %% of the random ones are caught.")
     parser.add_argument("--list", action="store_true", help="name the breaks and run nothing")
     parser.add_argument("--only", metavar="NAME", action="append", default=[],
-                        help="this break alone, as --list names it, e.g. k7 or r12; may be repeated")
+                        help="only this break, as --list names it, e.g. k7 or r12; may be repeated")
     parser.add_argument("--random", type=int, default=200, metavar="N", help="random breaks (%(default)s)")
     parser.add_argument("--sample", type=int, metavar="N", help="N of all breaks, evenly chosen")
     parser.add_argument("--seed", type=int, default=1, help="of the random breaks (%(default)s)")

@@ -36,7 +36,7 @@ def targets_for(root, pattern):
 
 
 def write_if_changed(path, content, mode):
-    """Leaves files alone that are as they should be, so that they are not compiled again."""
+    """Does not touch files that are as they should be, so that they are not compiled again."""
     if not path.exists() or path.read_bytes() != content:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)

@@ -16,4 +16,4 @@ function load(...names) {
 // As the pages get arrays: the bytes of a typed array as base64.
 const encoded = (array) => Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString("base64");
 
-module.exports = { load, encoded };
+module.exports = { folder, load, encoded };

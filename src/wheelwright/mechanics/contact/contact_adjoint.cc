@@ -17,7 +17,7 @@ Matrix right_hand_sides(const ReducedContact<dim>& contact, const ActiveSystem<d
   Matrix m(system.matrix.rows(), n_functions);
   for (int k = 0; k < n_active; ++k) {
     const int i = system.active[k] / nc, component = system.active[k] % nc, q = at.point_of_column(i);
-    const ContactPoint<dim>& point = at.points[i];
+    const ZonePoint<dim>& point = at.points[i];
     for (int f = 0; f < n_functions; ++f) {
       const double* observed = functions[f].observations.column(at.column(i));
       Vec<dim> tested;
@@ -46,7 +46,7 @@ ContactAdjoint adjoint_of(const ReducedContact<dim>& contact, const std::vector<
   const ObservationRows<dim> rows = at.observation_rows();
   ContactAdjoint adjoint{Matrix(rows.n_contact(), at.zone.n_columns), {}, by_rim};
   for (int i = 0; i < at.size(); ++i) {
-    const ContactPoint<dim>& point = at.points[i];
+    const ZonePoint<dim>& point = at.points[i];
     adjoint.by_travel -= point.gamma * multiplier[i][0];
     const Vec<dim> value = point.frame.template to_body<dim>(multiplier[i]);
     double* load = adjoint.loads.column(at.column(i));

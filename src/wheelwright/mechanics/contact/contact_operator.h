@@ -11,7 +11,7 @@ namespace wheelwright {
 
 /// A contact quadrature point in the ground frame.
 template <int dim>
-struct ContactPoint {
+struct ZonePoint {
   Vec<dim> position;  ///< relative to the axle: component 0 towards the ground, 1 along it [m]
   double gap;         ///< g (9) [m]
   double weight;      ///< dS
@@ -32,7 +32,7 @@ struct ContactPoints {
   int ring_columns;
   double ground;              ///< the ground position, in columns from the zone's first azimuth
   std::vector<Place> places;  ///< of the points of a column
-  std::vector<ContactPoint<dim>> points;
+  std::vector<ZonePoint<dim>> points;
 
   int size() const { return static_cast<int>(points.size()); }
   int per_column() const { return size() / zone.n_columns; }

@@ -70,7 +70,7 @@ ContactUnknowns<dim> start_from(const ReducedContact<dim>& contact, const Contac
   const std::vector<Neighbour> nearest = neighbours(at, other.ground - at.ground);
   ContactUnknowns<dim> x{{}, std::vector<double>(contact.n_free())};
   for (int i = 0; i < contact.n_points(); ++i) {
-    const ContactPoint<dim>& point = contact.points()[i];
+    const ZonePoint<dim>& point = contact.points()[i];
     Vec<dim> open{};
     open[0] = point.gamma * std::max(0.0, point.gap - displacement<dim>(other.rim, point.position)[0]);
     const auto [columns, q] = nearest[at.point_of_column(i)];

@@ -25,7 +25,7 @@ Matrix matrix_on(const ReducedContact<dim>& contact, const std::vector<Mat<dim>>
   Matrix a(n + n_free, n + n_free);
   for (int j = 0; j < n; ++j) {
     const int index = active[j] / nc, component = active[j] % nc;
-    const ContactPoint<dim>& point = contact.points()[index];
+    const ZonePoint<dim>& point = contact.points()[index];
     for (int k = 0; k < nc; ++k) {
       const double weight = point.weight * tangents[index][k][component];
       if (weight == 0) continue;

@@ -69,7 +69,7 @@ std::vector<Vec<dim>> ReducedContact<dim>::without_contact(const std::vector<dou
   const RimMotion rim = rim_motion(free);
   std::vector<Vec<dim>> result;
   for (int i = 0; i < n_points(); ++i) {
-    const ContactPoint<dim>& point = points()[i];
+    const ZonePoint<dim>& point = points()[i];
     Vec<dim> z = displacement<dim>(rim, point.position);
     z[0] -= point.gap;
     for (int d = 0; d < dim; ++d) z[d] = (preload_.empty() ? 0.0 : preload_[i][d]) - point.gamma * z[d];
@@ -160,7 +160,7 @@ ContactState<dim> ReducedContact<dim>::state(const ContactUnknowns<dim>& x, int 
 template <int dim>
 double ReducedContact<dim>::amplitude(const RimMotion& motion) const {
   double largest = 0;
-  for (const ContactPoint<dim>& point : points())
+  for (const ZonePoint<dim>& point : points())
     largest = std::max(largest, norm<dim>(displacement<dim>(motion, point.position)));
   return largest;
 }

@@ -38,7 +38,7 @@ class ReducedContact {
 
   const ContactOperator<dim>& tread() const { return *tread_; }
   const ContactZone& zone() const { return tread_->at.zone; }
-  const std::vector<ContactPoint<dim>>& points() const { return tread_->at.points; }
+  const std::vector<ZonePoint<dim>>& points() const { return tread_->at.points; }
   int n_points() const { return tread_->at.size(); }
   /// The number of components of z that contact meets: the others of every tangent are not used.
   int components() const { return tread_->components; }

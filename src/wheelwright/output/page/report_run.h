@@ -87,12 +87,12 @@ struct ReportRun {
   int events_omitted = 0;                    ///< older events that are not in `events`
   std::vector<HistoryCurve> history = {};
   std::vector<ShapeOutline> outlines;
-  std::optional<ShapeOutline> given = {};       ///< the wheel of the case, if the first shape differs from it
-  std::vector<std::string> flags = {};          ///< warnings, in sentences
-  bool has_rough_edges = false;                 ///< teeth or ripples that cannot be cut
-  std::vector<std::string> limits = {};         ///< what was not checked or not computed, in sentences
-  std::optional<RunSummary<dim>> summary = {};  ///< absent while the run continues
-  std::optional<ShownWheel<dim>> wheel = {};    ///< the last shape
+  std::optional<ShapeOutline> given = {};    ///< the wheel of the case, if the first shape differs from it
+  std::vector<std::string> flags = {};       ///< warnings, in sentences
+  bool has_rough_edges = false;              ///< teeth or ripples that cannot be cut
+  std::vector<std::string> limits = {};      ///< what was not checked or not computed, in sentences
+  std::optional<RunSummary<dim>> summary{};  ///< absent while the run continues
+  std::optional<ShownWheel<dim>> wheel{};    ///< the last shape
   std::vector<LoadedPositions<dim>> other_loads = {};
   std::vector<ContactPoint> contact_points = {};
 };

@@ -414,7 +414,7 @@
     paint();
   });
 
-  // --- To take away -----------------------------------------------------------------------------------
+  // --- Saving and exporting ---------------------------------------------------------------------------
 
   function download(name, blob) {
     const link = element("a", { href: URL.createObjectURL(blob), download: name });
