@@ -45,10 +45,13 @@ void check_terms(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.objective.terms.size(); ++i) {
     const Quantity& quantity = c.objective.terms[i].quantity;
     const std::string key = fmt::format("objective.term[{}].quantity", i + 1);
-    if (quantity == Quantity()) {
-      found.push_back({{key}, "the sum is no term of itself", "name another quantity"});
-      continue;
-    }
+    const auto& terms = c.objective.terms;
+    if (std::ranges::count(terms.begin(), terms.begin() + i, quantity, &ObjectiveTerm::quantity) > 0)
+      found.push_back({{key}, "an earlier term has this quantity", "add up their weights in one term"});
+    if (objective_weight(name(quantity)))
+      found.push_back({{key},
+                       "[objective] has a key for its weight",
+                       fmt::format("set objective.{} in place of the term", name(quantity))});
     if (const std::string& remedy = quantity->instead; !remedy.empty())
       found.push_back({{key}, "the optimizer has no derivative of it", remedy});
     check_load_cases(c, weighted_load_cases(c), found, [&](const Case& single, Conflicts& of_case) {
