@@ -242,7 +242,8 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
                  .annulus_matches_dual = 7,
                  .annulus = 0.005,
                  .length = 0.02,
-                 .mean = MeanStress::held};
+                 .mean = MeanStress::held,
+                 .terms = {{built_in("peak_pressure"), 0.25}}};
   c.optimizer.velocity = VelocityKind::harmonic;
   c.optimizer.rim_band = 0.006;
   c.optimizer.tread_band = 0.011;
@@ -350,7 +351,8 @@ constexpr bool is_list_of_points<PointsField<Struct>> = true;
 
 template <class Field>
 std::vector<BadValue> bad_values(const Field& field) {
-  if constexpr (requires { field.words; }) {
+  if constexpr (
+      requires { field.words; } || requires { field.built_in_words(); }) {
     return {{"\"no such word\"", Kind::out_of_range}, {"1", Kind::wrong_type}, {"true", Kind::wrong_type}};
   } else if constexpr (!requires { field.range; }) {
     return {{"1", Kind::wrong_type}, {"[]", Kind::wrong_type}, {"{}", Kind::wrong_type}};
@@ -415,6 +417,7 @@ Case case_with(const std::string& header) {
   c.constraints = {constraint_sections().example};
   c.constraints[0].at_least = 1;
   if (header == "[[load.case]]") c.load.cases = {load_case_sections().example};
+  if (header == "[[objective.term]]") c.objective.terms = {objective_term_sections().example};
   return c;
 }
 
@@ -923,7 +926,7 @@ TEST(Conflicts, MinimumRadiusNeedsSuitableEdgesAndHoles) {
   const auto refused = [](const Case& with) {
     const auto found = conflicts(with);
     return found.size() == 1 &&
-           std::ranges::find(found[0].keys, "optimizer.minimum_radius") != found[0].keys.end();
+           std::ranges::find(found[0].keys, key_of(&Optimizer::minimum_radius)) != found[0].keys.end();
   };
   Case other = c;
   other.grid.level_set_degree = 1;

@@ -11,6 +11,8 @@
 namespace wheelwright {
 namespace {
 
+constexpr std::uint32_t format_version = 9;  // of the format
+
 using testing::Random;
 using testing::small_grid;
 using testing::some_checkpoint;
@@ -49,6 +51,7 @@ TEST(CheckpointFormat, ContainsTheWholeState) {
     EXPECT_EQ(f.gradient, g.gradient);
     EXPECT_EQ(f.bounds.lower, g.bounds.lower);
     EXPECT_EQ(f.bounds.upper, g.bounds.upper);
+    EXPECT_EQ(f.unit, g.unit);
     EXPECT_EQ(a.evaluation.terms[k].name, b.evaluation.terms[k].name);
     EXPECT_EQ(a.evaluation.terms[k].value, b.evaluation.terms[k].value);
     EXPECT_EQ(a.evaluation.terms[k].by_position, b.evaluation.terms[k].by_position);
@@ -124,10 +127,11 @@ TEST(CheckpointFormat, NamesTheFault) {
   const auto fault = [](const std::string& bytes) { return parse_checkpoint_file<2>(bytes).failure().fault; };
   EXPECT_EQ(fault("no such file, but one that is long enough for a header"), FormatFault::wrong_kind);
   EXPECT_EQ(fault(block_file("LSET", 1, {})), FormatFault::wrong_kind);
-  EXPECT_EQ(fault(block_file("CKPT", 7, {})), FormatFault::unsupported_version);
-  EXPECT_EQ(fault(block_file("CKPT", 9, {})), FormatFault::unsupported_version);
-  EXPECT_EQ(fault(block_file("CKPT", 8, {{"STAT", ""}, {"CASE", ""}})), FormatFault::wrong_block);
-  EXPECT_EQ(fault(block_file("CKPT", 8, {})), FormatFault::wrong_block);
+  EXPECT_EQ(fault(block_file("CKPT", format_version - 1, {})), FormatFault::unsupported_version);
+  EXPECT_EQ(fault(block_file("CKPT", format_version + 1, {})), FormatFault::unsupported_version);
+  EXPECT_EQ(fault(block_file("CKPT", format_version, {{"STAT", ""}, {"CASE", ""}})),
+            FormatFault::wrong_block);
+  EXPECT_EQ(fault(block_file("CKPT", format_version, {})), FormatFault::wrong_block);
   std::string bad = good;
   bad[good.size() / 2] ^= 1;
   EXPECT_EQ(fault(bad), FormatFault::wrong_checksum);
@@ -136,14 +140,14 @@ TEST(CheckpointFormat, NamesTheFault) {
 /// The checkpoint with right checksums, after a change of the payload of one block.
 template <class Change>
 std::string reframed(const std::string& good, std::size_t block, Change change) {
-  const auto payloads = parse_block_file(good, "CKPT", 8, checkpoint_tags);
+  const auto payloads = parse_block_file(good, "CKPT", format_version, checkpoint_tags);
   std::vector<Block> blocks;
   for (std::size_t k = 0; k < checkpoint_tags.size(); ++k) {
     std::string payload((*payloads)[k]);
     if (k == block) change(payload);
     blocks.push_back({std::string(checkpoint_tags[k]), std::move(payload)});
   }
-  return block_file("CKPT", 8, blocks);
+  return block_file("CKPT", format_version, blocks);
 }
 
 // Checksums do not protect from files that were made to harm: sizes and values are checked too.
@@ -152,7 +156,7 @@ TEST(CheckpointFormat, RejectsInconsistentDataWithValidChecksums) {
   const std::string good = checkpoint_file(some_checkpoint<2>());
   int rejected = 0;
   for (std::size_t block = 0; block < checkpoint_tags.size(); ++block) {
-    const std::size_t size = (*parse_block_file(good, "CKPT", 8, checkpoint_tags))[block].size();
+    const std::size_t size = (*parse_block_file(good, "CKPT", format_version, checkpoint_tags))[block].size();
     for (std::size_t at = 0; at < size; ++at)
       for (const char value : {'\x00', '\x01', '\x7f', '\x80', '\xff'}) {
         const auto parsed = parse_checkpoint_file<2>(

@@ -47,8 +47,9 @@ Checkpoint<dim> some_checkpoint() {
   Matrix mean(3, 4);
   std::ranges::copy(random.numbers(12), mean.data());
   Evaluation<dim> evaluation{
-      .functions = {{"objective", random.number(), random.numbers(3), {random.number(), -0.0}, {}},
-                    {"volume", random.number(), {}, random.numbers(2), {-1.5, random.number()}}},
+      .functions =
+          {{"objective", random.number(), random.numbers(3), {random.number(), -0.0}, {}},
+           {"volume", random.number(), {}, random.numbers(2), {-1.5, random.number()}, {}, UnitKind::volume}},
       .terms = {{"strain_energy", random.number(), random.numbers(3)}, {"volume", random.number(), {}}},
       .boundary = {{0, point(), point(), random.number()}, {5, point(), point(), random.number()}},
       .newton_iterations = {7, 0, 12},

@@ -155,15 +155,45 @@ at_most = 1
   EXPECT_EQ(e.function("doubled_travel").unit, UnitKind::length);
 }
 
-/// The sum contains the term once, whatever the loads.
+Evaluation<2> evaluation_of(const std::string& more) {
+  const auto study = make_study<2>(case_of(small_case(1, more)));
+  return evaluate_of(*study)({study->initial, nullptr}, nullptr)->evaluation;
+}
+
+/// The energies are summed over the load positions, a further term is its quantity once. Shapes do not depend
+/// on the load, so that their terms count once in several load cases too.
 TEST(OwnQuantities, AreTermsOfTheObjective) {
-  const auto objective = [](const std::string& more) {
-    const auto study = make_study<2>(case_of(small_case(1, more)));
-    return evaluate_of(*study)({study->initial, nullptr}, nullptr)->evaluation.function("objective").value;
+  const std::string travel = R"(
+[[objective.term]]
+quantity = "travel"
+weight = 200
+[[constraint]]
+quantity = "travel"
+at_most = 1
+)",
+                    two_loads =
+                        "[[load.case]]\nname = \"one\"\n[[load.case]]\nname = \"two\"\nweight = 0.5\n";
+  const auto value = [](const Evaluation<2>& e, const char* name) { return e.function(name).value; };
+  const double energy = value(evaluation_of(""), "objective");
+  const auto e = evaluation_of(terms + travel);
+  const double edges = 3 * value(e, "outer_edges"), motion = 200 * value(e, "travel");
+  EXPECT_NEAR(value(e, "objective"), energy + edges + motion, 1e-9 * energy);
+  EXPECT_NEAR(value(evaluation_of(terms + travel + two_loads), "objective"), 1.5 * (energy + motion) + edges,
+              1e-9 * energy);
+}
+
+TEST(OwnQuantities, AreTermsOnceAndWithOneWeight) {
+  const auto is_accepted = [](const std::string& more) {
+    return parse_case(small_case(1, more), "case.toml", with_outer_edges()).value.has_value();
   };
-  const auto study = make_study<2>(case_of(small_case(1, terms)));
-  const auto e = evaluate_of(*study)({study->initial, nullptr}, nullptr)->evaluation;
-  EXPECT_NEAR(e.function("objective").value, objective("") + 3 * e.function("outer_edges").value, 1e-9);
+  const auto term = [](const std::string& quantity) {
+    return fmt::format("[[objective.term]]\nquantity = \"{}\"\nweight = 1\n", quantity);
+  };
+  EXPECT_TRUE(is_accepted(term("outer_edges") + term("peak_pressure")));
+  EXPECT_FALSE(is_accepted(term("outer_edges") + term("outer_edges")));
+  EXPECT_FALSE(is_accepted(term("uniformity_dual")));
+  EXPECT_FALSE(is_accepted(term("minimum_wall")));
+  EXPECT_FALSE(is_accepted(term("objective")));
 }
 
 TEST_F(OwnQuantity, IsInHistoryPagesAndCheckpointsWithItsUnit) {
@@ -190,9 +220,13 @@ TEST_F(OwnQuantity, IsInHistoryPagesAndCheckpointsWithItsUnit) {
   const auto summary = nlohmann::json::parse(file("straight", "summary.json"));
   EXPECT_EQ(summary["bounds"][0]["name"], "outer_edges");
   EXPECT_EQ(summary["bounds"][0]["unit"], "m");
+  const double edges = summary["after"]["outer_edges_m"];
+  EXPECT_NEAR(edges, summary["bounds"][0]["value"].get<double>(), 1e-9);
   const std::string page = file("straight", "report.html");
   EXPECT_NE(page.find("\"bound_units\":[{\"unit\":\"mm\""), std::string::npos);
   EXPECT_NE(page.find("\"outer_edges [m]\""), std::string::npos);
+  EXPECT_NE(page.find("{\"key\":\"outer_edges_m\",\"label\":\"outer_edges\",\"unit\":\"mm\""),
+            std::string::npos);
 
   {
     auto run = wheelwright::Run<2>::begin(c, folder() / "stopped");

@@ -81,14 +81,14 @@ const SectionArray<ObjectiveTerm>& objective_term_sections() {
       .parent = "objective",
       .name = "term",
       .meaning =
-          "a further term of the weighted sum, summed over all load positions if the quantity has a value "
-          "at each; any number of tables",
+          "a further term of the weighted sum: a quantity as histories have it, its mean over the load "
+          "positions, or the largest value of a peak; any number of tables",
       .in = [](Case& c) -> std::vector<ObjectiveTerm>& { return c.objective.terms; },
       .example = example_term(),
       .keys = {{.name = "quantity",
                 .unit = "",
                 .field = QuantityField<ObjectiveTerm>{&ObjectiveTerm::quantity},
-                .meaning = "any quantity with a derivative",
+                .meaning = "any quantity with a derivative and without a weight of its own in [objective]",
                 .presence = Presence::required},
                {.name = "weight",
                 .unit = "",

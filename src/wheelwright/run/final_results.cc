@@ -1,6 +1,7 @@
 #include "wheelwright/run/final_results.h"
 
 #include "wheelwright/run/given_wheel.h"
+#include "wheelwright/run/own_numbers.h"
 #include "wheelwright/run/summarized_run.h"
 #include "wheelwright/shape/cut/measure.h"
 
@@ -43,9 +44,10 @@ std::shared_ptr<const StateSolver<dim>> finer_solver(const Study<dim>& study) {
 }  // namespace
 
 template <int dim>
-DescribedWheel<dim> described(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+DescribedWheel<dim> described(const Case& c, const StateSolver<dim>& solver, const LoadCases<dim>& cases,
                               const LevelSet<dim>& shape, double measure, const SolvedStates<dim>& states) {
-  return described_wheel(solver, shape, volume_fraction(solver.model().grid, measure), states, cases);
+  return described_wheel(solver, shape, volume_fraction(solver.model().grid, measure), states, cases,
+                         own_numbers(c, solver, shape));
 }
 
 template <int dim>
@@ -62,13 +64,14 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
       shown = std::move(states);
       solver = finer;
     }
-  const auto after = described(*solver, study.load_cases, state.shape, state.measure, shown);
+  const auto after = described(study.source, *solver, study.load_cases, state.shape, state.measure, shown);
   const auto before = [&] {
     if (study.initial.values == state.shape.values) return after;
     if (solved.initial && solver == study.solver && begins_as_given(study, initial)) return *solved.initial;
     const double measure =
         begins_as_given(study, initial) ? initial.measure : material_measure(study.initial);
-    return described(*solver, study.load_cases, study.initial, measure, solutions.of(*solver, study.initial));
+    return described(study.source, *solver, study.load_cases, study.initial, measure,
+                     solutions.of(*solver, study.initial));
   }();
   const auto objective = objective_as_given(study, initial, interrupt);
   return {.own = own,

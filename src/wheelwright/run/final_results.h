@@ -35,9 +35,9 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
                                 const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,
                                 const Interrupt& interrupt);
 
-/// A shape with this measure of one sector, described.
+/// A shape with this measure of one sector, described, with the case's own quantities.
 template <int dim>
-DescribedWheel<dim> described(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+DescribedWheel<dim> described(const Case& c, const StateSolver<dim>& solver, const LoadCases<dim>& cases,
                               const LevelSet<dim>& shape, double measure, const SolvedStates<dim>& states);
 
 }  // namespace wheelwright

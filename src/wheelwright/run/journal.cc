@@ -42,7 +42,7 @@ void Journal<dim>::keep(const Trial<dim>& trial) {
   const bool is_initial =
       state.iteration == 0 && study.level == 0 && state.shape.values == session_.initial()->shape.values;
   if (is_initial && trial.solution && tread_levels_of_results(study.source) == tread_levels(study.source))
-    solved_.initial = described(*study.solver, study.load_cases, state.shape, state.measure,
+    solved_.initial = described(study.source, *study.solver, study.load_cases, state.shape, state.measure,
                                 SolvedStates<dim>(trial.solution));
   solved_.last = reason_to_stop(study.optimizer, state) ? trial.solution : nullptr;
 }

@@ -127,7 +127,7 @@ Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>
   WeightedSum<dim> of_shape;  // the same under every load
   for (const auto& [quantity, weight] : c.objective.terms) {
     if (!(weight > 0)) continue;
-    auto term = functional_of(quantity, Over::positions, quantity_context(c, solver));
+    auto term = functional_of(quantity, quantity->usual, quantity_context(c, solver));
     if (!term) return term.failure();
     term->weight *= weight;
     (quantity->of == Positions::none ? of_shape : terms).push_back(*std::move(term));

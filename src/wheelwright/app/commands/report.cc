@@ -34,11 +34,11 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
   const OptimizationState<dim>& last = run.checkpoint.state;
   const auto last_states = solved(last.shape);
   if (!last_states) return last_states.failure();
-  const auto summary =
-      summarized_run(*study, run.checkpoint.initial,
-                     objective_as_given(*study, run.checkpoint.initial, print_contact_progress()),
-                     described(solver, study->load_cases, given, material_measure(given), solved(given)),
-                     last, described(solver, study->load_cases, last.shape, last.measure, last_states));
+  const auto summary = summarized_run(
+      *study, run.checkpoint.initial,
+      objective_as_given(*study, run.checkpoint.initial, print_contact_progress()),
+      described(run.source, solver, study->load_cases, given, material_measure(given), solved(given)), last,
+      described(run.source, solver, study->load_cases, last.shape, last.measure, last_states));
   const SolvedShape<dim> shape{&last.shape, &solver, last_states->get()};
   return page_run(report_of_results<dim>(run.folder, run.source, summary, shape, shown_wheel(shape),
                                          run.checkpoint.finished));

@@ -99,7 +99,7 @@ double largest_violation(const nlohmann::json& bounds) {
 }
 
 /// Reads the numbers of the last shape that a run wrote to its folder.
-void read_summary(const fs::path& folder, DesignResult& result) {
+void read_summary(const fs::path& folder, const Quantities& quantities, DesignResult& result) {
   if (!is_there(folder / "summary.json")) return;
   const auto summary = nlohmann::json::parse(content(folder / "summary.json"));
   if (!summary.contains("after")) return;
@@ -107,9 +107,11 @@ void read_summary(const fs::path& folder, DesignResult& result) {
   const auto& after = summary.at("after");
   auto& numbers = result.numbers;
   result.shapes = after.at("shape");
-  for (const WheelNumber<2>& number : wheel_numbers<2>())  // some numbers exist only for some wheels
-    if (after.contains(number.key) && after[number.key].is_number())
-      numbers[number.key] = after[number.key].get<double>();
+  const auto read = [&](const std::string& key) {  // some numbers exist only for some wheels
+    if (after.contains(key) && after[key].is_number()) numbers[key] = after[key].get<double>();
+  };
+  for (const WheelNumber<2>& number : wheel_numbers<2>()) read(number.key);
+  for (const Quantity& own : quantities.own()) read(number_key(own, 2));
   if (after.contains("load_cases"))
     for (const auto& [load_case, of_case] : after["load_cases"].items())
       for (const auto& [key, value] : of_case.items())
@@ -160,7 +162,7 @@ DesignRun run_design(const Design& design, const fs::path& folder, Progression p
   } else {
     return {{}, fault_of_folder(run.failure(), folder)};
   }
-  read_summary(folder, result);
+  read_summary(folder, design.source.quantities, result);
   return {result, ""};
 }
 

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include "wheelwright/quantities/functionals/quantities.h"
-
 namespace wheelwright {
-namespace {
 
 /// Designs are 2D wheels. Lengths of good designs that differ in evenness differ by micrometres.
 RankedQuantity ranked(const Quantity& quantity) {
@@ -18,8 +15,6 @@ RankedQuantity ranked(const Quantity& quantity) {
           .is_of_evenness = quantity->is_of_evenness,
           .is_of_shape = quantity->of == Positions::none};
 }
-
-}  // namespace
 
 const std::vector<RankedQuantity>& ranked_quantities() {
   static const std::vector<RankedQuantity> all = [] {

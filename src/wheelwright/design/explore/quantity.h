@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/quantities/functionals/quantities.h"
 
 namespace wheelwright {
 
@@ -20,7 +21,9 @@ struct RankedQuantity {
   bool is_of_shape;     ///< the same under every load
 };
 
-/// All of them.
+RankedQuantity ranked(const Quantity& quantity);
+
+/// All built-in ones.
 const std::vector<RankedQuantity>& ranked_quantities();
 
 /// The one with that word or name, or null.

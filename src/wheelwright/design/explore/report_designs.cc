@@ -35,14 +35,35 @@ std::vector<std::string> load_cases_of(const std::vector<RankedDesign>& designs)
   return names;
 }
 
+/// The quantities that the designs' program has added.
+std::vector<RankedQuantity> own_quantities(const std::vector<RankedDesign>& designs) {
+  std::vector<RankedQuantity> own;
+  if (!designs.empty())
+    for (const Quantity& quantity : designs.front().design.source.quantities.own())
+      own.push_back(ranked(quantity));
+  return own;
+}
+
 /// The keys of all numbers: those of the first load case, then those of the others that depend on the load.
 std::vector<std::string> number_keys(const std::vector<RankedDesign>& designs) {
-  std::vector<std::string> keys;
-  for (const auto& number : wheel_numbers<2>()) keys.emplace_back(number.key);
+  std::vector<std::string> keys, under_load;
+  const auto add = [&](const std::string& key, bool is_of_shape) {
+    keys.push_back(key);
+    if (!is_of_shape) under_load.push_back(key);
+  };
+  for (const auto& number : wheel_numbers<2>()) add(number.key, number.is_of_shape);
+  for (const RankedQuantity& own : own_quantities(designs)) add(own.key, own.is_of_shape);
   for (const std::string& load_case : load_cases_of(designs))
-    for (const auto& number : wheel_numbers<2>())
-      if (!number.is_of_shape) keys.push_back(key_in_case(number.key, load_case));
+    for (const std::string& key : under_load) keys.push_back(key_in_case(key, load_case));
   return keys;
+}
+
+/// All quantities of the designs.
+std::vector<RankedQuantity> all_quantities(const std::vector<RankedDesign>& designs) {
+  std::vector<RankedQuantity> all = ranked_quantities();
+  const auto own = own_quantities(designs);
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
 }
 
 /// A column of the displayed table.
@@ -185,14 +206,15 @@ std::string designs_page(const std::vector<RankedDesign>& designs,
                          const std::vector<RankedQuantity>& quantities, const std::string& title) {
   Json data{{"asked", Json::array()}, {"quantities", Json::array()}, {"designs", Json::array()}};
   for (const RankedQuantity& quantity : quantities) data["asked"].push_back(quantity.key);
-  for (const RankedQuantity& quantity : ranked_quantities())
+  const auto all = all_quantities(designs);
+  for (const RankedQuantity& quantity : all)
     data["quantities"].push_back({{"key", quantity.key},
                                   {"label", quantity.label},
                                   {"unit", quantity.shown.name},
                                   {"factor", quantity.shown.factor}});
   const auto others = load_cases_of(designs);
   for (const std::string& load_case : others)
-    for (const RankedQuantity& quantity : ranked_quantities())
+    for (const RankedQuantity& quantity : all)
       if (!quantity.is_of_shape)
         data["quantities"].push_back({{"key", key_in_case(quantity.key, load_case)},
                                       {"label", fmt::format("{} in {}", quantity.label, load_case)},

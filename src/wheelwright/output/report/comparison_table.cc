@@ -104,11 +104,12 @@ std::vector<std::string> other_load_cases(const std::vector<const DescribedWheel
 template <int dim>
 std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels) {
   std::vector<ComparedRow> rows;
-  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) add_row(number, "", wheels, rows);
+  const auto numbers = numbers_of(*wheels.front());
+  for (const WheelNumber<dim>& number : numbers) add_row(number, "", wheels, rows);
   for (const std::string& load_case : other_load_cases(wheels)) {
     std::vector<const DescribedWheel<dim>*> others;
     for (const DescribedWheel<dim>* wheel : wheels) others.push_back(under_load_case(*wheel, load_case));
-    for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+    for (const WheelNumber<dim>& number : numbers)
       if (!number.is_of_shape) add_row(number, " in " + load_case, others, rows);
   }
   return rows;

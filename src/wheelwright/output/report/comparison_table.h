@@ -14,8 +14,8 @@ struct ComparedRow {
   std::vector<std::optional<KnownNumber>> values;  ///< one per wheel; nothing if it has none
 };
 
-/// The numbers (wheel_numbers) that at least one of the wheels has or should have; then, for every other load
-/// case, those that depend on the load.
+/// The numbers (numbers_of the first one) that at least one of the wheels has or should have; then, for every
+/// other load case, those that depend on the load.
 template <int dim>
 std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels);
 

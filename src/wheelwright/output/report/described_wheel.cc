@@ -127,22 +127,24 @@ std::optional<cad::Roughness> roughness(const DescribedWheel<dim>& wheel) {
 template <int dim>
 DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                     double volume_fraction, const SolvedStates<dim>& states,
-                                    const LoadCases<dim>& cases) {
+                                    const LoadCases<dim>& cases, const OwnNumbers<dim>& own_numbers) {
   DescribedWheel<dim> wheel{.name = {},
                             .which = {},
                             .grid = solver.model().grid,
                             .volume_fraction = volume_fraction,
                             .mass = mass(solver, volume_fraction),
                             .outline = outline_measures(psi),
-                            .loaded = loaded_wheel(solver, psi, states)};
+                            .loaded = loaded_wheel(solver, psi, states),
+                            .own = own_numbers ? own_numbers(states) : std::vector<OwnNumber>()};
   if (!cases.empty()) wheel.load_case = cases.front().name;
   for (std::size_t k = 1; k < cases.size(); ++k) {
     DescribedWheel<dim> other = wheel;
     other.others.clear();
     other.load_case = cases[k].name;
-    other.loaded = loaded_wheel(
-        solver, psi,
-        states ? (*states)->under(with_loads_of((*states)->model(), cases[k].model), Interrupt()) : states);
+    const auto under_load =
+        states ? (*states)->under(with_loads_of((*states)->model(), cases[k].model), Interrupt()) : states;
+    other.loaded = loaded_wheel(solver, psi, under_load);
+    if (own_numbers) other.own = own_numbers(under_load);
     wheel.others.push_back(std::move(other));
   }
   return wheel;
@@ -266,17 +268,32 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
   return numbers;
 }
 
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel) {
+  std::vector<WheelNumber<dim>> all = wheel_numbers<dim>();
+  for (const OwnNumber& own : wheel.own)
+    all.push_back({label(own.quantity), kind(own.quantity), number_key(own.quantity, dim),
+                   [quantity = own.quantity](const DescribedWheel<dim>& of) -> Number {
+                     const auto found = std::ranges::find(of.own, quantity, &OwnNumber::quantity);
+                     return found == of.own.end() ? std::nullopt : Number(found->value);
+                   },
+                   own.quantity->of == Positions::none});
+  return all;
+}
+
 template decltype(described_wheel<2>) described_wheel<2>;
 template decltype(under_load_case<2>) under_load_case<2>;
 template decltype(outline_measures<2>) outline_measures<2>;
 template decltype(roughness<2>) roughness<2>;
 template decltype(known_value<2>) known_value<2>;
 template decltype(wheel_numbers<2>) wheel_numbers<2>;
+template decltype(numbers_of<2>) numbers_of<2>;
 template decltype(described_wheel<3>) described_wheel<3>;
 template decltype(under_load_case<3>) under_load_case<3>;
 template decltype(outline_measures<3>) outline_measures<3>;
 template decltype(roughness<3>) roughness<3>;
 template decltype(known_value<3>) known_value<3>;
 template decltype(wheel_numbers<3>) wheel_numbers<3>;
+template decltype(numbers_of<3>) numbers_of<3>;
 
 }  // namespace wheelwright

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "wheelwright/mechanics/state/load_case.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
+#include "wheelwright/quantities/functionals/quantity.h"
 
 namespace wheelwright {
 
@@ -29,6 +31,15 @@ struct OutlineMeasures {
   std::optional<cad::Roughness> roughness = {};  ///< at a cell of the grid; nothing without holes
 };
 
+/// A number about a wheel, or in one line why it could not be computed, e.g. "newton_stalled: ...".
+using KnownNumber = Expected<double, std::string>;
+
+/// The value of a quantity that a program has added, in SI units, on the whole width.
+struct OwnNumber {
+  Quantity quantity;
+  KnownNumber value;
+};
+
 /// A wheel in numbers.
 template <int dim>
 struct DescribedWheel {
@@ -39,6 +50,7 @@ struct DescribedWheel {
   std::optional<double> mass;  ///< [kg, per metre of width when dim = 2], if the material has a density
   Expected<OutlineMeasures, cad::OutlineFault> outline;  ///< fails if no curves can be fitted
   Expected<LoadedWheel<dim>> loaded;                     ///< fails like the contact problem
+  std::vector<OwnNumber> own = {};                       ///< of the load case
   std::string load_case = {};               ///< of these numbers; empty: the wheel has only one load
   std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
 };
@@ -47,12 +59,17 @@ struct DescribedWheel {
 template <int dim>
 using SolvedStates = Expected<std::shared_ptr<const State<dim>>>;
 
+/// The values of a program's own quantities at a shape, from its states under one load case.
+template <int dim>
+using OwnNumbers = std::function<std::vector<OwnNumber>(const SolvedStates<dim>&)>;
+
 /// Describes a shape by its states under the first of its load cases; the others are solved on the same
 /// factor.
 template <int dim>
 DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                     double volume_fraction, const SolvedStates<dim>& states,
-                                    const LoadCases<dim>& cases);
+                                    const LoadCases<dim>& cases,
+                                    const OwnNumbers<dim>& own_numbers = OwnNumbers<dim>());
 
 /// The wheel under the load case of that name; null if it has none.
 template <int dim>
@@ -66,9 +83,6 @@ Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim
 template <int dim>
 std::optional<cad::Roughness> roughness(const DescribedWheel<dim>& wheel);
 
-/// A number about a wheel, or in one line why it could not be computed, e.g. "newton_stalled: ...".
-using KnownNumber = Expected<double, std::string>;
-
 /// One number about a wheel.
 template <int dim>
 struct WheelNumber {
@@ -77,7 +91,7 @@ struct WheelNumber {
   std::string key;  ///< for programs, with the SI unit
   /// In SI units, on the whole width: nothing if the wheel has no such number, e.g. a mass without a density;
   /// the reason if it could not be computed.
-  std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&);
+  std::function<std::optional<KnownNumber>(const DescribedWheel<dim>&)> value;
   bool is_of_shape = false;  ///< the same under every load
 
   ShownUnit shown() const { return shown_unit(kind, dim); }
@@ -86,6 +100,10 @@ struct WheelNumber {
 /// The numbers by which wheels are judged and compared, in the order of tables.
 template <int dim>
 const std::vector<WheelNumber<dim>>& wheel_numbers();
+
+/// These, and the wheel's own ones.
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel);
 
 /// In SI units, on the whole width; nothing if the wheel has no such number, for whatever reason.
 template <int dim>

@@ -9,9 +9,9 @@ namespace wheelwright {
 /// How to display numbers of wheels, in the order of tables: key, label, unit, and the factor from SI units
 /// to it.
 template <int dim>
-nlohmann::ordered_json shown_numbers();
+nlohmann::ordered_json shown_numbers(const std::vector<WheelNumber<dim>>& numbers);
 
-/// Adds the numbers of a wheel (wheel_numbers) by their keys, and under `load_cases` those that depend on the
+/// Adds the numbers of a wheel (numbers_of) by their keys, and under `load_cases` those that depend on the
 /// load under every other load case. A number that could not be computed is null; `missing` next to it has
 /// its key with the reason.
 template <int dim>

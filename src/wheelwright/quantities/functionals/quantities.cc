@@ -314,6 +314,10 @@ void Quantities::add(QuantityRow row) {
   rows_.emplace_back(std::move(row));
 }
 
+std::span<const Quantity> Quantities::own() const {
+  return std::span(rows_).subspan(built_in_quantities().size());
+}
+
 const Quantity* Quantities::find(std::string_view name) const {
   const auto found = std::ranges::find_if(rows_, [&](const Quantity& q) { return q->name == name; });
   return found == rows_.end() ? nullptr : &*found;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,8 @@ class Quantities {
   /// Throws std::invalid_argument if the name is in use or is not a word of letters, digits and _.
   void add(QuantityRow row);
 
+  /// Those that the program has added.
+  std::span<const Quantity> own() const;
   /// Null if there is none of that name.
   const Quantity* find(std::string_view name) const;
   /// In the order of the table.

@@ -6,6 +6,7 @@
 #include "wheelwright/output/report/numbers_json.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/feature_warnings.h"
+#include "wheelwright/run/own_numbers.h"
 #include "wheelwright/run/remarks.h"
 #include "wheelwright/run/roughness_warning.h"
 #include "wheelwright/shape/cut/measure.h"
@@ -20,7 +21,7 @@ using Json = nlohmann::ordered_json;
 template <int dim>
 Json values_json(const DescribedWheel<dim>& wheel) {
   Json values = Json::object();
-  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+  for (const WheelNumber<dim>& number : numbers_of(wheel))
     if (const auto value = known_value(number, wheel)) values[number.key] = *value;
   return values;
 }
@@ -64,7 +65,8 @@ DescribedWheel<dim> WatchedNumbers<dim>::initial_wheel(const BoardView<dim>& vie
   if (states && load_case > 0)
     states =
         (*states)->under(with_loads_of((*states)->model(), (*now.load_cases)[load_case].model), Interrupt());
-  auto wheel = described_wheel<dim>(*now.solver, psi, share(psi, material_measure(psi)), states, {});
+  auto wheel = described_wheel<dim>(*now.solver, psi, share(psi, material_measure(psi)), states, {},
+                                    own_numbers(*now.source, *now.solver, psi));
   if (!now.load_cases->empty()) wheel.load_case = (*now.load_cases)[load_case].name;
   initial_.push_back({now.source, now.solver, load_case, wheel});
   return wheel;
@@ -74,11 +76,12 @@ template <int dim>
 std::string WatchedNumbers<dim>::json(const BoardView<dim>& view, int load_case) {
   const WatchedShape<dim>& shape = *view.shape;
   const auto now = described_wheel<dim>(*shape.solver, shape.psi, share(shape.psi, shape.measure),
-                                        shape.solutions[load_case], {});
+                                        shape.solutions[load_case], {},
+                                        own_numbers(*shape.source, *shape.solver, shape.psi));
   const auto before = initial_wheel(view, load_case);
   const Json json{{"shape_version", view.shape_version},
                   {"load_case", load_case},
-                  {"rows", shown_numbers<dim>()},
+                  {"rows", shown_numbers(numbers_of(now))},
                   {"before", values_json(before)},
                   {"now", values_json(now)},
                   {"warnings", warnings_json(*shape.source, before, now)}};

@@ -95,8 +95,8 @@ Expected<std::string, NoProduct> design_report(const std::filesystem::path& fold
   if (!first) return no_product(first.failure());
   double energy = 0;
   for (const double value : of_all((*first)->positions(), (*first)->strain_energy())) energy += value;
-  const auto before = described(solver, cases, initial, material_measure(initial), first),
-             after = described(solver, cases, shape.psi, shape.measure,
+  const auto before = described(*shape.source, solver, cases, initial, material_measure(initial), first),
+             after = described(*shape.source, solver, cases, shape.psi, shape.measure,
                                SolvedStates<dim>(shape.solutions.front()));
   const RunSummary<dim> summary{.title = run_title(*shape.source),
                                 .before = {0, energy, before},
