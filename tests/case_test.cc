@@ -926,7 +926,7 @@ TEST(Conflicts, MinimumRadiusNeedsSuitableEdgesAndHoles) {
   const auto refused = [](const Case& with) {
     const auto found = conflicts(with);
     return found.size() == 1 &&
-           std::ranges::find(found[0].keys, "optimizer.minimum_radius") != found[0].keys.end();
+           std::ranges::find(found[0].keys, key_of(&Optimizer::minimum_radius)) != found[0].keys.end();
   };
   Case other = c;
   other.grid.level_set_degree = 1;

@@ -82,8 +82,8 @@ class StrainRate : public MaterialDensityIntegral<2, MaterialDensity<2>> {
     for (const auto& row : slopes) std::ranges::fill(row, 0.0);
     for (int j = 0; j < point.n_cases(); ++j)
       for (int d = 0; d < 2; ++d) {
-        slopes[d][next(point, j)] += 2 * factors[j] * change(point, j);
-        slopes[d][j] -= 2 * factors[j] * change(point, j);
+        slopes[d][next(point, j)] += 2e6 * factors[j] * change(point, j);
+        slopes[d][j] -= 2e6 * factors[j] * change(point, j);
       }
   }
 

@@ -1,18 +1,20 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wheelwright/case/case.h"
+#include "wheelwright/case/case_key.h"
 
 namespace wheelwright {
 
 /// Values that are in range but contradict each other.
 struct Conflict {
-  std::vector<std::string> keys;  ///< paths of all keys involved, the most likely cause first
+  CaseKeys keys;  ///< all that are involved, the most likely cause first
   std::string problem;
   std::string remedy;
-  std::string other_place = {};  ///< a key whose line is appended to the problem
+  std::optional<CaseKey> other_place = {};  ///< a key whose line is appended to the problem
 };
 using Conflicts = std::vector<Conflict>;
 

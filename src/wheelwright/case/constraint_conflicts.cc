@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "wheelwright/case/derived.h"
-#include "wheelwright/case/load_case_conflicts.h"
 #include "wheelwright/case/quantity_needs.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/shown_value.h"
+#include "wheelwright/case/single_load.h"
 
 namespace wheelwright {
 
@@ -16,28 +16,29 @@ namespace {
 
 /// A bound of a constraint: regardless of the positions, a lower bound above an upper one contradicts it.
 struct OneBound {
-  std::string key;
+  CaseKey key;
   double value;
   std::string text;  ///< of the value
 };
 
-OneBound one_bound(const Case& c, std::size_t i, const char* name, double value) {
-  return {fmt::format("constraint[{}].{}", i + 1, name), value,
-          shown_text(c.constraints[i].quantity, value, c.wheel)};
+OneBound one_bound(const Case& c, std::size_t i, CaseKey key, double value) {
+  return {std::move(key), value, shown_text(c.constraints[i].quantity, value, c.wheel)};
 }
 
 std::optional<OneBound> lower_bound(const Case& c, std::size_t i) {
   const Constraint& constraint = c.constraints[i];
   const auto& value = constraint.equals ? constraint.equals : constraint.at_least;
   if (!value) return {};
-  return one_bound(c, i, constraint.equals ? "equals" : "at_least", *value);
+  return one_bound(
+      c, i, constraint.equals ? key_of(&Constraint::equals, i) : key_of(&Constraint::at_least, i), *value);
 }
 
 std::optional<OneBound> upper_bound(const Case& c, std::size_t i) {
   const Constraint& constraint = c.constraints[i];
   const auto& value = constraint.equals ? constraint.equals : constraint.at_most;
   if (!value) return {};
-  return one_bound(c, i, constraint.equals ? "equals" : "at_most", *value);
+  return one_bound(c, i, constraint.equals ? key_of(&Constraint::equals, i) : key_of(&Constraint::at_most, i),
+                   *value);
 }
 
 /// Finds contradictory bounds of one quantity in two tables.
@@ -50,11 +51,11 @@ void check_bounds_together(const Case& c, Conflicts& found) {
                          bool lower_is_later) {
     if (!lower || !upper || lower->value <= upper->value) return;
     const OneBound &later = lower_is_later ? *lower : *upper, &earlier = lower_is_later ? *upper : *lower;
-    found.push_back(
-        {.keys = {later.key, earlier.key},
-         .problem = fmt::format("contradicts {} = {}: no wheel satisfies both", earlier.key, earlier.text),
-         .remedy = "change one of them, or remove it",
-         .other_place = earlier.key});
+    found.push_back({.keys = {later.key, earlier.key},
+                     .problem = fmt::format("contradicts {} = {}: no wheel satisfies both",
+                                            earlier.key.path(), earlier.text),
+                     .remedy = "change one of them, or remove it",
+                     .other_place = earlier.key});
   };
   for (std::size_t i = 0; i < c.constraints.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
@@ -64,62 +65,66 @@ void check_bounds_together(const Case& c, Conflicts& found) {
     }
 }
 
-/// Bounds that no wheel can satisfy, or that a run cannot compute.
-void check_constraints(const Case& c, Conflicts& found) {
-  for (std::size_t i = 0; i < c.constraints.size(); ++i) {
-    const Constraint& constraint = c.constraints[i];
-    const auto key = [&](std::string_view name) { return fmt::format("constraint[{}].{}", i + 1, name); };
-    const auto refuse = [&](std::string_view name, std::string problem, std::string remedy) {
-      found.push_back({{key(name)}, std::move(problem), std::move(remedy)});
-    };
-    if (optimizer_method(c) == OptimizerMethod::descent)
-      found.push_back({{key("quantity"), "optimizer.method"},
-                       "steepest descent does not support constraints",
-                       "use method = \"sequential_quadratic\""});
-    if (!constraint.at_least && !constraint.at_most && !constraint.equals)
-      found.push_back({{key("quantity"), key("at_least"), key("at_most"), key("equals")},
-                       "no bound is given",
-                       "add at_least, at_most or equals"});
-    if (constraint.equals && (constraint.at_least || constraint.at_most))
-      refuse("equals", "a value and bounds are given", "keep one of them");
-    if (constraint.at_least && constraint.at_most && *constraint.at_least >= *constraint.at_most)
-      refuse("at_least",
-             fmt::format("must be less than at_most = {}",
-                         shown_text(constraint.quantity, *constraint.at_most, c.wheel)),
-             "swap them, or use equals");
-    if (constraint.over == OverPositions::worst &&
-        (constraint.equals || (constraint.at_least && constraint.at_most)))
-      refuse("over", "the worst position depends on the side of the bound",
-             "set one bound, or over = \"each\"");
-    if (const std::string& remedy = constraint.quantity->instead; !remedy.empty())
-      refuse("quantity", "the optimizer has no derivative of it", remedy);
-    check_load_cases(c, load_cases_of(c, constraint), found, [&](const Case& single, Conflicts& of_case) {
-      for (const Need& need : unmet_needs(single, constraint.quantity))
-        of_case.push_back(
-            {{key("quantity"), need.key}, need.problem, "change that key, or bound another quantity"});
-      if (const auto constant = constancy(single, constraint.quantity))
-        of_case.push_back({{key("quantity"), constant->key},
-                           constant->problem,
-                           constant->remedy + ", or bound another quantity"});
-    });
-    for (const auto& [name, bound] : {std::pair{"at_least", constraint.at_least},
-                                      {"at_most", constraint.at_most},
-                                      {"equals", constraint.equals}})
-      if (constraint.quantity == built_in("volume_fraction") && bound && *bound >= 1 &&
-          std::string_view(name) != "at_most")
-        refuse(name, "more than the whole ring", "use a fraction below 1");
-  }
-  if (!holds_volume(c) && c.volume.target)
-    found.push_back({{"volume.target"},
-                     "the volume is free, because it is bounded or minimized",
-                     "omit the key, or bound volume_fraction instead"});
+/// Bounds of one table that no wheel can satisfy, or whose side is unclear.
+void check_bounds(const Case& c, std::size_t i, Conflicts& found) {
+  const Constraint& constraint = c.constraints[i];
+  const CaseKey at_least = key_of(&Constraint::at_least, i), at_most = key_of(&Constraint::at_most, i),
+                equals = key_of(&Constraint::equals, i);
+  const auto refuse = [&](CaseKeys keys, std::string problem, std::string remedy) {
+    found.push_back({std::move(keys), std::move(problem), std::move(remedy)});
+  };
+  if (!constraint.at_least && !constraint.at_most && !constraint.equals)
+    refuse({key_of(&Constraint::quantity, i), at_least, at_most, equals}, "no bound is given",
+           "add at_least, at_most or equals");
+  if (constraint.equals && (constraint.at_least || constraint.at_most))
+    refuse({equals}, "a value and bounds are given", "keep one of them");
+  if (constraint.at_least && constraint.at_most && *constraint.at_least >= *constraint.at_most)
+    refuse({at_least},
+           fmt::format("must be less than at_most = {}",
+                       shown_text(constraint.quantity, *constraint.at_most, c.wheel)),
+           "swap them, or use equals");
+  if (constraint.over == OverPositions::worst &&
+      (constraint.equals || (constraint.at_least && constraint.at_most)))
+    refuse({key_of(&Constraint::over, i)}, "the worst position depends on the side of the bound",
+           "set one bound, or over = \"each\"");
+  for (const auto& [key, bound] :
+       {std::pair{at_least, constraint.at_least}, std::pair{equals, constraint.equals}})
+    if (constraint.quantity == built_in("volume_fraction") && bound && *bound >= 1)
+      refuse({key}, "more than the whole ring", "use a fraction below 1");
+}
+
+/// Quantities that a run cannot bound.
+void check_quantity(const Case& c, std::size_t i, Conflicts& found) {
+  const Constraint& constraint = c.constraints[i];
+  const CaseKey quantity = key_of(&Constraint::quantity, i);
+  if (optimizer_method(c) == OptimizerMethod::descent)
+    found.push_back({{quantity, key_of(&Optimizer::method)},
+                     "steepest descent does not support constraints",
+                     "use method = \"sequential_quadratic\""});
+  if (const std::string& remedy = constraint.quantity->instead; !remedy.empty())
+    found.push_back({{quantity}, "the optimizer has no derivative of it", remedy});
+  const auto loads = single_loads(c, load_cases_of(c, constraint));
+  check_loads(loads, found, [&](const SingleLoad& single, Conflicts& of_case) {
+    for (const Need& need : unmet_needs(single, constraint.quantity))
+      of_case.push_back({{quantity, need.key}, need.problem, "change that key, or bound another quantity"});
+    if (const auto constant = constancy(single, constraint.quantity))
+      of_case.push_back(
+          {{quantity, constant->key}, constant->problem, constant->remedy + ", or bound another quantity"});
+  });
 }
 
 }  // namespace
 
 void constraint_conflicts(const Case& c, Conflicts& found) {
-  check_constraints(c, found);
+  for (std::size_t i = 0; i < c.constraints.size(); ++i) {
+    check_quantity(c, i, found);
+    check_bounds(c, i, found);
+  }
   check_bounds_together(c, found);
+  if (!holds_volume(c) && c.volume.target)
+    found.push_back({{key_of(&Volume::target)},
+                     "the volume is free, because it is bounded or minimized",
+                     "omit the key, or bound volume_fraction instead"});
 }
 
 }  // namespace wheelwright

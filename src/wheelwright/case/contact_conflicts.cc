@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "wheelwright/case/derived.h"
-#include "wheelwright/case/load_case_conflicts.h"
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
+#include "wheelwright/case/single_load.h"
 
 namespace wheelwright {
 
@@ -18,8 +18,9 @@ void check_nitsche(const Case& c, Conflicts& found) {
   const double least = minimum_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
   if (c.contact.gamma_0 >= least) return;
   found.push_back(
-      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio", "material.plane",
-        "grid.angular_cells", "grid.radial_cells"},
+      {{key_of(&Contact::gamma_0), key_of(&Contact::theta), key_of(&Contact::method),
+        key_of(&Material::poissons_ratio), key_of(&Material::plane), key_of(&Grid::angular_cells),
+        key_of(&Grid::radial_cells)},
        fmt::format("too small for theta = {}, poissons_ratio = {} and cells that are {:.2g} times as long as "
                    "high: the stiffness may not be positive definite",
                    c.contact.theta, c.material.poissons_ratio, tread_cell_aspect(c)),
@@ -27,7 +28,8 @@ void check_nitsche(const Case& c, Conflicts& found) {
 }
 
 /// The contact of one position is a dense problem.
-void check_contact_points(const Case& c, Conflicts& found) {
+void check_contact_points(const SingleLoad& single, Conflicts& found) {
+  const Case& c = single.c;
   constexpr double most = 2500;
   if (is_overloaded_in_pascals(c)) return;
   const auto unknowns = [](const Case& shown) {
@@ -44,9 +46,10 @@ void check_contact_points(const Case& c, Conflicts& found) {
           : fmt::format("use contact.quadrature_points = {}",
                         std::max(1, static_cast<int>(c.contact.quadrature_points * most / n)));
   found.push_back(
-      {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force", "load.mass",
-        "load.travel", "material.youngs_modulus", "contact.friction", "contact.with", "wheel.outer_radius",
-        "wheel.width", "material.poissons_ratio", "material.plane"},
+      {{key_of(&Grid::tread_levels), key_of(&Contact::quadrature_points), key_of(&Grid::angular_cells),
+        single.key(&Load::force), single.key(&Load::travel), key_of(&Material::youngs_modulus),
+        key_of(&Contact::friction), key_of(&Contact::with), key_of(&Wheel::outer_radius),
+        key_of(&Wheel::width), key_of(&Material::poissons_ratio), key_of(&Material::plane)},
        fmt::format("about {:.0f} unknowns in the contact of one position; at most {:.0f} are solved "
                    "in reasonable time",
                    n, most),
@@ -57,16 +60,17 @@ void check_contact_points(const Case& c, Conflicts& found) {
 void check_bonded(const Case& c, Conflicts& found) {
   if (c.contact.with != Counterpart::ring) return;
   if (c.wheel.dimension == 3)
-    found.push_back({{"contact.with", "wheel.dimension"},
+    found.push_back({{key_of(&Contact::with), key_of(&Wheel::dimension)},
                      "a tread bonded to a ring is supported only in 2D",
                      "use wheel.dimension = 2"});
   if (c.contact.friction > 0)
-    found.push_back({{"contact.friction", "contact.with"},
+    found.push_back({{key_of(&Contact::friction), key_of(&Contact::with)},
                      "a tread bonded to a ring cannot slide",
                      "remove friction, or use contact.with = \"ground\""});
   if (wants_uniformity(c))
-    found.push_back({{"objective.uniformity_dual", "objective.uniformity_annulus", "objective.uniformity_l2",
-                      "objective.annulus_matches_dual", "objective.minimize", "contact.with"},
+    found.push_back({{key_of(&Objective::uniformity_dual), key_of(&Objective::uniformity_annulus),
+                      key_of(&Objective::uniformity_l2), key_of(&Objective::annulus_matches_dual),
+                      key_of(&Objective::minimize), key_of(&Contact::with)},
                      "the uniformity of the contact stress is defined only for a patch on the ground",
                      "use another objective, or contact.with = \"ground\""});
 }
@@ -75,7 +79,7 @@ void check_bonded(const Case& c, Conflicts& found) {
 
 void contact_conflicts(const Case& c, Conflicts& found) {
   check_nitsche(c, found);
-  check_load_cases(c, all_load_cases(c), found, check_contact_points);
+  check_loads(single_loads(c), found, check_contact_points);
   check_bonded(c, found);
 }
 

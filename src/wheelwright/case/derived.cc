@@ -6,6 +6,7 @@
 
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/hole_rings.h"
+#include "wheelwright/case/load_values.h"
 #include "wheelwright/case/objective_weights.h"
 
 namespace wheelwright {
@@ -13,19 +14,8 @@ namespace wheelwright {
 using std::numbers::pi;
 
 Case with_load_case(Case c, int load_case) {
-  const CaseLoad changes = c.load.cases[load_case];
-  Load& load = c.load;
-  load.cases.clear();
-  if (changes.force) {
-    load.force = *changes.force;
-    load.travel.reset();
-  }
-  if (changes.travel) load.travel = changes.travel;
-  load.horizontal_force = changes.horizontal_force.value_or(load.horizontal_force);
-  load.torque = changes.torque.value_or(load.torque);
-  load.body_force = changes.body_force.value_or(load.body_force);
-  load.hole_pressure = changes.hole_pressure.value_or(load.hole_pressure);
-  load.speed = changes.speed.value_or(load.speed);
+  c.load = with_changes(c.load, c.load.cases[load_case]);
+  c.load.cases.clear();
   return c;
 }
 

@@ -1,7 +1,5 @@
 #include "wheelwright/case/drawn_shapes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -181,6 +179,22 @@ Outlines turned(const Outlines& first, double angle) {
   return result;
 }
 
+template <class Shape>
+CaseKey count_key(std::size_t i) {
+  if constexpr (requires { &Shape::count; })
+    return key_of(&Shape::count, i);
+  else
+    return {};
+}
+
+template <class Shape>
+CaseKey path_key(std::size_t i) {
+  if constexpr (requires { &Shape::path; })
+    return key_of(&Shape::path, i);
+  else
+    return {};
+}
+
 /// The `[[holes.*]]` of all sectors.
 Figure holes_figure(const Case& c) {
   Figure figure{Fill::hole, {}};
@@ -198,19 +212,22 @@ Figure holes_figure(const Case& c) {
 std::vector<DrawnShape> drawn_shapes(const Case& c) {
   std::vector<DrawnShape> result;
   for_each_shape_section([&](const auto& section) {
-    int number = 0;
+    std::size_t i = 0;
     for (const auto& shape : section.of(c)) {
       using Shape = std::decay_t<decltype(shape)>;
       const bool has_outlines = copies(shape) > 0 && is_possible(shape, c);
       result.push_back(
           {.order = shape.order,
-           .key = fmt::format("{}[{}]", section.path(), ++number),
+           .table = table_of<Shape>(i),
+           .count_key = count_key<Shape>(i),
+           .path_key = path_key<Shape>(i),
            .fill = shape.as,
            .first = has_outlines ? outlines(shape, c) : Outlines{},
            .repetition = repetition<Shape>,
            .count = is_whole(shape) ? 1 : copies(shape),
            .may_leave_ring = std::is_same_v<Shape, SpokeShape> || std::is_same_v<Shape, PictureShape>,
            .accuracy = accuracy(shape, c)});
+      ++i;
     }
   });
   std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.order < b.order; });

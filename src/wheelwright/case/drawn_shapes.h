@@ -1,10 +1,9 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "wheelwright/cad/drawing/composition.h"
-#include "wheelwright/case/case.h"
+#include "wheelwright/case/case_key.h"
 
 namespace wheelwright {
 
@@ -17,8 +16,9 @@ enum class Repetition {
 
 /// A shape of a case as curves.
 struct DrawnShape {
-  int order;        ///< among the shapes of the case
-  std::string key;  ///< e.g. "shape.slot[2]"
+  int order;                    ///< among the shapes of the case
+  CaseKey table;                ///< e.g. shape.slot[2]
+  CaseKey count_key, path_key;  ///< of it, if it has such keys
   Fill fill;
   std::vector<DrawnOutline> first;  ///< of which the union is repeated [m]
   Repetition repetition;

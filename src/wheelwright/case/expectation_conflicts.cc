@@ -4,6 +4,7 @@
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/quantity_needs.h"
 #include "wheelwright/case/section_conflicts.h"
+#include "wheelwright/case/single_load.h"
 
 namespace wheelwright {
 
@@ -15,17 +16,15 @@ void expectation_conflicts(const Case& c, Conflicts& found) {
   };
   for (std::size_t i = 0; i < c.expectations.size(); ++i) {
     const Expectation& expectation = c.expectations[i];
-    const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
+    const CaseKey quantity = key_of(&Expectation::quantity, i);
     if (const auto* term = objective_weight(name(expectation.quantity)); term && !has_weight(*term))
-      found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
+      found.push_back({{quantity, key_of(term->weight)},
                        "it has no weight in the objective, so the run does not compute it",
                        "set a weight, however small, or expect another quantity"});
-    for (const Need& need :
-         unmet_needs(single_load_cases(c)[load_case_of(c, expectation)], expectation.quantity))
-      found.push_back(
-          {{key("quantity"), need.key}, need.problem, "change that key, or expect another quantity"});
+    for (const Need& need : unmet_needs(single_loads(c)[load_case_of(c, expectation)], expectation.quantity))
+      found.push_back({{quantity, need.key}, need.problem, "change that key, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
-      found.push_back({{key("iteration"), "optimizer.iterations"},
+      found.push_back({{key_of(&Expectation::iteration, i), key_of(&Optimizer::iterations)},
                        fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
                        "use an earlier shape, or omit the key for the last shape"});
   }

@@ -17,7 +17,8 @@ namespace {
 void check_size(const Case& c, Conflicts& found) {
   constexpr long long most = 1'000'000'000;
   if (dof_bound(c) <= most) return;
-  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.axial_cells", "grid.degree"},
+  found.push_back({{key_of(&Grid::radial_cells), key_of(&Grid::angular_cells), key_of(&Grid::axial_cells),
+                    key_of(&Grid::degree)},
                    fmt::format("the grid has up to {} unknowns", dof_bound(c)),
                    fmt::format("use a grid with at most {}", most)});
 }
@@ -25,7 +26,7 @@ void check_size(const Case& c, Conflicts& found) {
 void check_angular_cells(const Case& c, Conflicts& found) {
   const int cells = c.grid.angular_cells, sectors = c.wheel.sectors;
   if (cells % sectors == 0) return;
-  found.push_back({{"grid.angular_cells", "wheel.sectors"},
+  found.push_back({{key_of(&Grid::angular_cells), key_of(&Wheel::sectors)},
                    fmt::format("must be a multiple of wheel.sectors = {}", sectors),
                    fmt::format("nearest valid: {}", nearest_multiples(cells, sectors))});
 }
@@ -34,12 +35,13 @@ void check_angular_cells(const Case& c, Conflicts& found) {
 std::string halvable_cells(const Case& c, int times) {
   const int parts = 1 << times;
   std::vector<std::string> sizes;
-  const auto add = [&](const char* key, int cells, int unit) {
-    if (cells % unit != 0) sizes.push_back(fmt::format("grid.{} = {}", key, nearest_multiples(cells, unit)));
+  const auto add = [&](const CaseKey& key, int cells, int unit) {
+    if (cells % unit != 0)
+      sizes.push_back(fmt::format("{} = {}", key.path(), nearest_multiples(cells, unit)));
   };
-  add("radial_cells", c.grid.radial_cells, parts);
-  add("angular_cells", c.grid.angular_cells, parts * c.wheel.sectors);
-  if (c.wheel.dimension == 3) add("axial_cells", c.grid.axial_cells, parts);
+  add(key_of(&Grid::radial_cells), c.grid.radial_cells, parts);
+  add(key_of(&Grid::angular_cells), c.grid.angular_cells, parts * c.wheel.sectors);
+  if (c.wheel.dimension == 3) add(key_of(&Grid::axial_cells), c.grid.axial_cells, parts);
   return fmt::format("{}", fmt::join(sizes, ", "));
 }
 
@@ -50,14 +52,14 @@ void check_coarse_levels(const Case& c, Conflicts& found) {
   if (levels == 0 || c.wheel.inner_radius >= c.wheel.outer_radius ||
       c.grid.angular_cells % c.wheel.sectors != 0)
     return;
-  const auto refuse = [&](std::vector<std::string> keys, std::string problem, std::string remedy) {
-    keys.insert(keys.begin(), "optimizer.coarse_levels");
+  const auto refuse = [&](CaseKeys keys, std::string problem, std::string remedy) {
+    keys.insert(keys.begin(), key_of(&Optimizer::coarse_levels));
     found.push_back({std::move(keys), std::move(problem), std::move(remedy)});
   };
   if (!can_be_halved(c, levels)) {
     int possible = levels;
     while (!can_be_halved(c, possible)) --possible;
-    refuse({"grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
+    refuse({key_of(&Grid::radial_cells), key_of(&Grid::angular_cells), key_of(&Wheel::sectors)},
            fmt::format("{} x {} cells of each sector cannot be doubled {} times", c.grid.radial_cells,
                        c.grid.angular_cells / c.wheel.sectors, levels),
            fmt::format("use {}, or grids that can be: {}", possible, halvable_cells(c, levels)));
@@ -66,7 +68,7 @@ void check_coarse_levels(const Case& c, Conflicts& found) {
   const Case coarse = on_coarser_grid(c, levels);
   const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / coarse.grid.radial_cells;
   if (wants_annulus(c) && std::abs(annulus_thickness(c) - tread_rows(coarse) * cell) > 1e-6 * cell)
-    refuse({"objective.annulus", "grid.radial_cells"},
+    refuse({key_of(&Objective::annulus), key_of(&Grid::radial_cells)},
            fmt::format("the annulus of {:.6g} m is not a whole number of coarse cells of {:.6g} m",
                        annulus_thickness(c), cell),
            fmt::format("use fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));

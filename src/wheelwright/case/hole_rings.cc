@@ -1,7 +1,5 @@
 #include "wheelwright/case/hole_rings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,13 +24,18 @@ double centre_distance(const HoleRing& a, const HoleRing& b, double azimuth) {
 std::vector<NamedRing> named_rings(const Case& c) {
   std::vector<NamedRing> rings;
   for (const HoleRing& ring : c.holes.rings) {
-    rings.push_back({fmt::format("holes.ring[{}]", rings.size() + 1), ring});
+    const std::size_t i = rings.size();
+    rings.push_back({table_of<HoleRing>(i).path(),
+                     {key_of(&HoleRing::radius, i), key_of(&HoleRing::center_radius, i),
+                      key_of(&HoleRing::count, i), key_of(&HoleRing::phase, i)},
+                     ring});
     if (!ring.phase) rings.back().ring.phase = pi / ring.count;
   }
-  int number = 0;
-  for (const HoleCircle& circle : c.holes.circles) {
+  for (std::size_t i = 0; i < c.holes.circles.size(); ++i) {
+    const HoleCircle& circle = c.holes.circles[i];
     const auto [x, y] = circle.center;
-    rings.push_back({fmt::format("holes.circle[{}]", ++number),
+    rings.push_back({table_of<HoleCircle>(i).path(),
+                     {key_of(&HoleCircle::radius, i), key_of(&HoleCircle::center, i)},
                      {.count = c.wheel.sectors,
                       .center_radius = std::hypot(x, y),
                       .radius = circle.radius,

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/case/case.h"
+#include "wheelwright/case/case_key.h"
 
 namespace wheelwright {
 
@@ -13,6 +13,7 @@ namespace wheelwright {
 /// A ring of holes of the case, or a circle with its images.
 struct NamedRing {
   std::string name;  ///< e.g. "holes.ring[2]"
+  CaseKeys place;    ///< the keys of the radius and positions of its holes, the radius first
   HoleRing ring;     ///< with its phase
 };
 

@@ -113,6 +113,7 @@ struct ChoiceField {
   std::vector<std::string_view> words;
   int (*get)(const Struct&);
   void (*set)(Struct&, int);
+  const void* (*place)(const Struct&);  ///< of the member that it sets
 };
 
 template <class Member>
@@ -128,7 +129,8 @@ auto choice(std::vector<std::string_view> words) {
   using Struct = typename MemberTraits<decltype(member)>::struct_type;
   using Enum = typename MemberTraits<decltype(member)>::value_type;
   return ChoiceField<Struct>{std::move(words), [](const Struct& s) { return static_cast<int>(s.*member); },
-                             [](Struct& s, int i) { s.*member = static_cast<Enum>(i); }};
+                             [](Struct& s, int i) { s.*member = static_cast<Enum>(i); },
+                             [](const Struct& s) -> const void* { return &(s.*member); }};
 }
 
 /// The name of one of the case's quantities.
@@ -260,6 +262,19 @@ const Key<Struct>* find_key(const std::vector<Key<Struct>>& keys, std::string_vi
   for (const auto& key : keys)
     if (key.name == name) return &key;
   return nullptr;
+}
+
+/// The place in a struct of the member that a key sets.
+template <class Struct>
+const void* place(const Key<Struct>& key, const Struct& s) {
+  return std::visit(
+      [&](const auto& field) -> const void* {
+        if constexpr (requires { s.*field.member; })
+          return &(s.*field.member);
+        else
+          return field.place(s);
+      },
+      key.field);
 }
 
 /// Whether two different keys exclude each other.

@@ -6,37 +6,39 @@
 #include <numbers>
 
 #include "wheelwright/case/derived.h"
-#include "wheelwright/case/load_case_conflicts.h"
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
+#include "wheelwright/case/single_load.h"
 
 namespace wheelwright {
 
 namespace {
 
-void check_travel(const Case& c, Conflicts& found) {
+void check_travel(const SingleLoad& single, Conflicts& found) {
+  const Case& c = single.c;
   const double thickness = c.wheel.outer_radius - c.wheel.inner_radius;
   if (!c.load.travel || thickness <= 0 || *c.load.travel < thickness) return;
-  found.push_back({{"load.travel", "wheel.outer_radius", "wheel.inner_radius"},
+  found.push_back({{single.key(&Load::travel), key_of(&Wheel::outer_radius), key_of(&Wheel::inner_radius)},
                    "the rim itself would be below the ground",
                    fmt::format("use less than outer_radius - inner_radius = {:.6g} m", thickness) +
                        if_in_millimetres(*c.load.travel, c.wheel.outer_radius)});
 }
 
-void check_load(const Case& c, Conflicts& found) {
+void check_load(const SingleLoad& single, Conflicts& found) {
+  const Case& c = single.c;
   if (!is_overloaded(c)) return;
   const double half_width = hertz_half_width(c);
   const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
   if (is_overloaded_in_pascals(c)) {
-    found.push_back({{"material.youngs_modulus", "load.force", "load.mass"},
+    found.push_back({{key_of(&Material::youngs_modulus), single.key(&Load::force)},
                      "so small that the load would flatten a solid disc",
                      question_of_megapascals(c.material.youngs_modulus)});
     return;
   }
   found.push_back(
-      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width", "wheel.outer_radius",
-        "material.poissons_ratio", "material.plane"},
+      {{single.key(&Load::force), key_of(&Material::youngs_modulus), key_of(&Wheel::width),
+        key_of(&Wheel::outer_radius), key_of(&Material::poissons_ratio), key_of(&Material::plane)},
        fmt::format("too large: a solid disc would touch the ground on {:.3g} m and be strained by "
                    "about {:.0f} %, far beyond linear elasticity",
                    2 * half_width, 100 * half_width / (2 * c.wheel.outer_radius)),
@@ -53,14 +55,15 @@ double wall_strain(const Case& c, const HoleRing& ring) {
 
 /// Reports loads that would crush the walls between holes. This is an estimate, used only if the case has
 /// other problems; otherwise a solve decides.
-void check_walls(const Case& c, Conflicts& found) {
+void check_walls(const SingleLoad& single, Conflicts& found) {
+  const Case& c = single.c;
   constexpr double largest = 0.25, advised = 0.05;
   if (c.load.travel || c.contact.with == Counterpart::ring || is_overloaded_in_pascals(c)) return;
   double strain = 0;
   for (const HoleRing& ring : c.holes.rings) strain = std::max(strain, wall_strain(c, ring));
   if (strain <= largest) return;
   found.push_back(
-      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width"},
+      {{single.key(&Load::force), key_of(&Material::youngs_modulus), key_of(&Wheel::width)},
        fmt::format("too large: the walls between the holes would be strained by about {:.0f} %, far "
                    "beyond linear elasticity",
                    100 * strain),
@@ -69,38 +72,40 @@ void check_walls(const Case& c, Conflicts& found) {
 }
 
 /// Friction must resist the force or torque that moves or turns the rim.
-void check_friction(const Case& c, Conflicts& found) {
+void check_friction(const SingleLoad& single, Conflicts& found) {
+  const Case& c = single.c;
   if (c.contact.with == Counterpart::ring) return;
   const Load& load = c.load;
   if (load.horizontal_force != 0 && load.torque != 0)
     found.push_back(
-        {{"load.torque", "load.horizontal_force"},
+        {{single.key(&Load::torque), single.key(&Load::horizontal_force)},
          "the wheel would roll away: friction can resist a horizontal force or a torque, not both",
          "keep one of torque and horizontal_force"});
   const double arm = c.wheel.outer_radius, held = c.contact.friction * load.force;
-  const auto check = [&](const char* key, double value, double limit, const char* unit) {
+  const auto check = [&](const CaseKey& key, double value, double limit, const char* unit) {
     if (value == 0) return;
     if (c.contact.friction == 0)
-      found.push_back({{key, "contact.friction"},
+      found.push_back({{key, key_of(&Contact::friction)},
                        "without friction nothing holds the wheel",
                        "set contact.friction > 0"});
     else if (!load.travel && load.body_force == std::array<double, 2>{} && std::abs(value) >= limit)
       found.push_back(
-          {{key, "contact.friction", "load.force", "load.mass"},
+          {{key, key_of(&Contact::friction), single.key(&Load::force)},
            fmt::format("the wheel would slide: friction resists less than {:.6g} {}", limit, unit),
            "use a smaller value, or more contact.friction"});
   };
-  check("load.horizontal_force", load.horizontal_force, held, "N");
-  check("load.torque", load.torque, held * arm, "N m");
-  check("load.lateral_force", load.lateral_force, held, "N");
+  check(single.key(&Load::horizontal_force), load.horizontal_force, held, "N");
+  check(single.key(&Load::torque), load.torque, held * arm, "N m");
+  check(single.key(&Load::lateral_force), load.lateral_force, held, "N");
   const double along_ground = std::hypot(load.horizontal_force, load.lateral_force);
   if (!load.travel && load.horizontal_force != 0 && load.lateral_force != 0 && along_ground >= held &&
       std::max(std::abs(load.horizontal_force), std::abs(load.lateral_force)) < held)
-    found.push_back({{"load.lateral_force", "load.horizontal_force", "contact.friction"},
-                     fmt::format("the wheel would slide: both forces together are {:.6g} N, and friction "
-                                 "resists less than {:.6g} N",
-                                 along_ground, held),
-                     "use smaller values, or more contact.friction"});
+    found.push_back(
+        {{single.key(&Load::lateral_force), single.key(&Load::horizontal_force), key_of(&Contact::friction)},
+         fmt::format("the wheel would slide: both forces together are {:.6g} N, and friction "
+                     "resists less than {:.6g} N",
+                     along_ground, held),
+         "use smaller values, or more contact.friction"});
 }
 
 /// The strain of a rotating ring held only at the rim: the centrifugal force of all its mass over the area at
@@ -112,18 +117,21 @@ double rotation_strain(const Case& c) {
 }
 
 /// The centrifugal load needs a mass, and must strain the wheel by less than a quarter.
-void check_speed(const Case& c, Conflicts& found) {
+void check_speed(const SingleLoad& single, Conflicts& found) {
+  const Case& c = single.c;
   if (c.load.speed == 0) return;
   if (!c.material.density) {
-    found.push_back(
-        {{"load.speed", "material.density"}, "the centrifugal load needs a density", "set material.density"});
+    found.push_back({{single.key(&Load::speed), key_of(&Material::density)},
+                     "the centrifugal load needs a density",
+                     "set material.density"});
     return;
   }
   constexpr double largest = 0.25, advised = 0.05;
   const double strain = rotation_strain(c);
   if (strain <= largest) return;
-  found.push_back({{"load.speed", "material.density", "material.youngs_modulus", "wheel.outer_radius",
-                    "wheel.inner_radius", "material.poissons_ratio", "material.plane"},
+  found.push_back({{single.key(&Load::speed), key_of(&Material::density), key_of(&Material::youngs_modulus),
+                    key_of(&Wheel::outer_radius), key_of(&Wheel::inner_radius),
+                    key_of(&Material::poissons_ratio), key_of(&Material::plane)},
                    fmt::format("too large: the centrifugal load would strain the ring by about {:.0f} %, far "
                                "beyond linear elasticity",
                                100 * strain),
@@ -139,35 +147,35 @@ void check_names_of_load_cases(const Case& c, Conflicts& found) {
   };
   std::vector<std::string> names;
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const std::string key = fmt::format("load.case[{}].name", k + 1);
+    const CaseKey key = key_of(&CaseLoad::name, k);
     if (cases[k].name.empty() || !std::ranges::all_of(cases[k].name, is_in_word))
       found.push_back({{key}, "the name must be one word of letters, digits, - and _", "use another name"});
     if (std::ranges::find(names, cases[k].name) != names.end())
       found.push_back({{key}, "another load case has this name", "use a unique name"});
     names.push_back(cases[k].name);
   }
-  const auto check_named = [&](std::string_view table, std::size_t i, const std::string& name) {
+  const auto check_named = [&](const CaseKey& key, const std::string& name) {
     if (name.empty() || std::ranges::find(names, name) != names.end()) return;
-    found.push_back({{fmt::format("{}[{}].load_case", table, i + 1)},
+    found.push_back({{key},
                      "there is no load case with this name",
                      names.empty() ? "add a [[load.case]], or omit the key"
                                    : fmt::format("known: {}", fmt::join(names, ", "))});
   };
   for (std::size_t i = 0; i < c.constraints.size(); ++i)
-    check_named("constraint", i, c.constraints[i].load_case);
+    check_named(key_of(&Constraint::load_case, i), c.constraints[i].load_case);
   for (std::size_t i = 0; i < c.expectations.size(); ++i)
-    check_named("expect", i, c.expectations[i].load_case);
+    check_named(key_of(&Expectation::load_case, i), c.expectations[i].load_case);
   if (cases.empty()) return;
   if (weighted_load_cases(c).empty())
-    found.push_back({{"load.case[1].weight"},
+    found.push_back({{key_of(&CaseLoad::weight, 0)},
                      "the weights of all load cases are 0: there is nothing to minimize",
                      "set at least one weight > 0"});
   if (c.objective.mean == MeanStress::held)
-    found.push_back({{"objective.mean", "load.case[1].name"},
+    found.push_back({{key_of(&Objective::mean), key_of(&CaseLoad::name, 0)},
                      "the held mean of the contact stress is defined for only one load",
                      "use mean = \"exact\", or one load"});
   if (c.objective.annulus_matches_dual)
-    found.push_back({{"objective.annulus_matches_dual", "load.case[1].name"},
+    found.push_back({{key_of(&Objective::annulus_matches_dual), key_of(&CaseLoad::name, 0)},
                      "(83) determines the weight of J_p1 for only one load",
                      "set uniformity_annulus, or use one load"});
 }
@@ -176,12 +184,10 @@ void check_names_of_load_cases(const Case& c, Conflicts& found) {
 
 void load_conflicts(const Case& c, Conflicts& found) {
   for (const auto check : {check_travel, check_load, check_friction, check_speed})
-    check_load_cases(c, all_load_cases(c), found, check);
+    check_loads(single_loads(c), found, check);
   check_names_of_load_cases(c, found);
 }
 
-void wall_conflicts(const Case& c, Conflicts& found) {
-  check_load_cases(c, all_load_cases(c), found, check_walls);
-}
+void wall_conflicts(const Case& c, Conflicts& found) { check_loads(single_loads(c), found, check_walls); }
 
 }  // namespace wheelwright

@@ -1,3 +1,6 @@
+#include <type_traits>
+
+#include "wheelwright/case/case_key.h"
 #include "wheelwright/case/common_keys.h"
 
 namespace wheelwright {
@@ -65,6 +68,51 @@ const Section<Load>& load_section() {
 
 namespace {
 
+/// The keys of [load] that set `of_section`, for load cases, where they set `of_case`.
+template <class Of, class Value>
+void add_changeable(std::vector<Key<CaseLoad>>& keys, Of Load::*of_section,
+                    std::optional<Value> CaseLoad::*of_case) {
+  constexpr std::string_view default_text = "that of [load]";
+  const Load sample;
+  for (const Key<Load>& key : load_section().keys) {
+    if (place(key, sample) != &(sample.*of_section)) continue;
+    Key<CaseLoad> in_case{.name = key.name,
+                          .unit = key.unit,
+                          .field = TextField<CaseLoad>{},
+                          .meaning = key.meaning,
+                          .instead_of = key.instead_of};
+    std::visit(
+        [&](const auto& field) {
+          if constexpr (std::is_same_v<Value, double> && requires { field.factor; })
+            in_case.field = OptionalNumberField<CaseLoad>{of_case, field.range, default_text, field.factor};
+          else if constexpr (!std::is_same_v<Value, double> && requires { field.range; })
+            in_case.field = OptionalPointField<CaseLoad>{of_case, field.range, default_text};
+        },
+        key.field);
+    keys.push_back(std::move(in_case));
+  }
+}
+
+/// The keys of a load case: all that it does not have are those of [load] for all load cases.
+std::vector<Key<CaseLoad>> load_case_keys() {
+  std::vector<Key<CaseLoad>> keys{
+      {.name = "name",
+       .field = TextField<CaseLoad>{&CaseLoad::name, ""},
+       .meaning = "a word of letters, digits, - and _, for constraints and for the columns of history.csv",
+       .presence = Presence::required},
+      {.name = "weight",
+       .field = NumberField<CaseLoad>{&CaseLoad::weight, between(0, 1e9)},
+       .meaning = "weight of this load in the objective; 0: it is used only in constraints"}};
+  add_changeable(keys, &Load::force, &CaseLoad::force);
+  add_changeable(keys, &Load::travel, &CaseLoad::travel);
+  add_changeable(keys, &Load::horizontal_force, &CaseLoad::horizontal_force);
+  add_changeable(keys, &Load::torque, &CaseLoad::torque);
+  add_changeable(keys, &Load::body_force, &CaseLoad::body_force);
+  add_changeable(keys, &Load::hole_pressure, &CaseLoad::hole_pressure);
+  add_changeable(keys, &Load::speed, &CaseLoad::speed);
+  return keys;
+}
+
 CaseLoad example_load_case() {
   CaseLoad kerb;
   kerb.name = "kerb";
@@ -84,53 +132,7 @@ const SectionArray<CaseLoad>& load_case_sections() {
           "load case ([several loads](optimization.md))",
       .in = [](Case& c) -> std::vector<CaseLoad>& { return c.load.cases; },
       .example = example_load_case(),
-      .keys = {
-          {.name = "name",
-           .field = TextField<CaseLoad>{&CaseLoad::name, ""},
-           .meaning =
-               "a word of letters, digits, - and _, for constraints and for the columns of history.csv",
-           .presence = Presence::required},
-          {.name = "weight",
-           .field = NumberField<CaseLoad>{&CaseLoad::weight, between(0, 1e9)},
-           .meaning = "weight of this load in the objective; 0: it is used only in constraints"},
-          {.name = "mass",
-           .unit = "kg",
-           .field = OptionalNumberField<CaseLoad>{&CaseLoad::force, between(1e-9, 1e9), "that of [load]",
-                                                  standard_gravity},
-           .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
-          {.name = "force",
-           .unit = "N",
-           .field = OptionalNumberField<CaseLoad>{&CaseLoad::force, between(1e-8, 1e10), "that of [load]"},
-           .meaning = "force carried by the whole width",
-           .instead_of = "mass"},
-          {.name = "travel",
-           .unit = "m",
-           .field = OptionalNumberField<CaseLoad>{&CaseLoad::travel, above(0, 1000), "that of [load]"},
-           .meaning = "prescribed travel of the rim towards the ground",
-           .instead_of = "mass"},
-          {.name = "horizontal_force",
-           .unit = "N",
-           .field = OptionalNumberField<CaseLoad>{&CaseLoad::horizontal_force, between(-1e10, 1e10),
-                                                  "that of [load]"},
-           .meaning = "force on the rim along the ground"},
-          {.name = "torque",
-           .unit = "N m",
-           .field = OptionalNumberField<CaseLoad>{&CaseLoad::torque, between(-1e10, 1e10), "that of [load]"},
-           .meaning = "driving or braking torque on the rim"},
-          {.name = "body_force",
-           .unit = "N/m^3",
-           .field =
-               OptionalPointField<CaseLoad>{&CaseLoad::body_force, between(-1e12, 1e12), "that of [load]"},
-           .meaning = "[along, down]: force per volume of the structure"},
-          {.name = "hole_pressure",
-           .unit = "Pa",
-           .field = OptionalNumberField<CaseLoad>{&CaseLoad::hole_pressure, between(-1e12, 1e12),
-                                                  "that of [load]"},
-           .meaning = "pressure on the boundary of the holes"},
-          {.name = "speed",
-           .unit = "m/s",
-           .field = OptionalNumberField<CaseLoad>{&CaseLoad::speed, between(0, 1000), "that of [load]"},
-           .meaning = "speed of the axle along the ground"}}};
+      .keys = load_case_keys()};
   return sections;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/case/case_key.h"
 #include "wheelwright/files/level_set_file.h"
 
 namespace wheelwright {
@@ -11,8 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = Diagnostic::Kind;
 
-constexpr const char* table = "shape";
-constexpr const char* key = "shape.from";
 constexpr std::size_t most_bytes = std::size_t{1} << 28;
 
 Expected<SavedLevelSet, FormatError> parsed(const std::string& bytes) {
@@ -27,6 +26,7 @@ Expected<SavedLevelSet, FormatError> parsed(const std::string& bytes) {
 std::vector<FileProblem> load_saved_shape(Case& c, const fs::path& folder) {
   SavedShape& saved = c.saved_shape;
   if (saved.from.empty()) return {};
+  const std::string key = key_of(&SavedShape::from).path();
   std::vector<FileProblem> problems;
   fs::path file = folder / saved.from;
   std::error_code error;
@@ -43,7 +43,8 @@ std::vector<FileProblem> load_saved_shape(Case& c, const fs::path& folder) {
   if (!bytes) return problems;
   // The blocks of such a file end in their own checksums, which makes the checksum of the whole file
   // independent of their contents. Read backwards it is not.
-  check_checksum(saved.checksum, {bytes->rbegin(), bytes->rend()}, table, problems);
+  check_checksum(saved.checksum, {bytes->rbegin(), bytes->rend()}, key_of(&SavedShape::checksum).path(),
+                 problems);
   auto shape = parsed(*bytes);
   if (shape)
     saved.shape.contents = std::make_shared<const SavedLevelSet>(*std::move(shape));

@@ -8,13 +8,13 @@ namespace wheelwright {
 void material_conflicts(const Case& c, Conflicts& found) {
   if (!c.material.nearly_incompressible()) return;
   if (c.grid.degree == 1)
-    found.push_back({{"grid.degree", "material.poissons_ratio", "material.plane"},
+    found.push_back({{key_of(&Grid::degree), key_of(&Material::poissons_ratio), key_of(&Material::plane)},
                      fmt::format("elements of degree 1 are much too stiff at poissons_ratio = {}",
                                  c.material.poissons_ratio),
                      "use degree = 2"});
   constexpr double largest = 0.49999;
   if (c.material.poissons_ratio > largest)
-    found.push_back({{"material.poissons_ratio", "material.plane"},
+    found.push_back({{key_of(&Material::poissons_ratio), key_of(&Material::plane)},
                      "so close to 1/2 that rounding would spoil the solution",
                      fmt::format("use at most {}: the difference to 1/2 does not matter", largest)});
 }

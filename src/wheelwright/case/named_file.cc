@@ -41,12 +41,12 @@ std::optional<std::string> read_named_file(const fs::path& file, const std::stri
   return bytes;
 }
 
-void check_checksum(std::string& stated, const std::string& bytes, const std::string& table,
+void check_checksum(std::string& stated, const std::string& bytes, const std::string& key,
                     Problems& problems) {
   const std::string found = fmt::format("crc32:{:08x}", checksum(bytes));
   if (!stated.empty() && stated != found)
     problems.push_back(
-        {Kind::conflict, table + ".checksum", "", 0, fmt::format("the file's checksum is {}", found),
+        {Kind::conflict, key, "", 0, fmt::format("the file's checksum is {}", found),
          "this is not the file that the case was written for: restore it, or remove the checksum"});
   stated = found;
 }

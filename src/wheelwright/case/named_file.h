@@ -26,8 +26,9 @@ struct FileProblem {
 std::optional<std::string> read_named_file(const std::filesystem::path& file, const std::string& key,
                                            std::size_t most_bytes, std::vector<FileProblem>& problems);
 
-/// Sets the checksum of the file of a table, e.g. "shape.file[1]", or compares it with the given one.
-void check_checksum(std::string& stated, const std::string& bytes, const std::string& table,
+/// Sets the checksum of a file, or compares it with the one that its key, e.g. "shape.file[1].checksum",
+/// gives.
+void check_checksum(std::string& stated, const std::string& bytes, const std::string& key,
                     std::vector<FileProblem>& problems);
 
 }  // namespace wheelwright

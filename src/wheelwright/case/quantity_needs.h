@@ -4,25 +4,26 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/case/case.h"
+#include "wheelwright/case/single_load.h"
 
 namespace wheelwright {
 
 /// A key without which a quantity has no meaning.
 struct Need {
-  const char* key;
+  CaseKey key;
   const char* problem;
 };
 
-/// Those that the case does not meet.
-std::vector<Need> unmet_needs(const Case& c, const Quantity& quantity);
+/// Those that the case does not meet under this load.
+std::vector<Need> unmet_needs(const SingleLoad& single, const Quantity& quantity);
 
 /// Why a quantity is the same for every wheel, so that it can neither be minimized nor be bounded.
 struct Constancy {
-  std::string key, problem, remedy;
+  CaseKey key;
+  std::string problem, remedy;
 };
 
-/// Nothing if the quantity differs between wheels.
-std::optional<Constancy> constancy(const Case& c, const Quantity& quantity);
+/// Nothing if the quantity differs between wheels under this load.
+std::optional<Constancy> constancy(const SingleLoad& single, const Quantity& quantity);
 
 }  // namespace wheelwright

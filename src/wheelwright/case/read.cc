@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "wheelwright/base/text.h"
+#include "wheelwright/case/case_key.h"
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/fitting_grid.h"
 #include "wheelwright/case/keys.h"
@@ -503,30 +504,44 @@ bool is_faulty(const Reading& reading, const std::string& key) {
   return reading.faulty.contains(key) || (inside != reading.faulty.end() && inside->starts_with(key + "."));
 }
 
+/// The path by which the file gives a key, or nothing.
+std::optional<std::string> given_path(const Reading& reading, const CaseKey& key) {
+  for (std::string& path : key.paths())
+    if (reading.entries.contains(path)) return std::move(path);
+  return {};
+}
+
+/// A conflict at the first of its keys that the file gives.
+Diagnostic diagnostic(const Reading& reading, const Conflict& conflict) {
+  std::optional<std::string> given;
+  std::size_t n_absent = 0;  // keys before the given one
+  for (; n_absent < conflict.keys.size() && !given; ++n_absent)
+    given = given_path(reading, conflict.keys[n_absent]);
+  const Entry at = given ? reading.entries.at(*given) : Entry{0, 0, ""};
+  const std::string blamed = conflict.keys.front().path();
+  const bool blamed_is_given = n_absent == 1;
+  std::string problem =
+      blamed_is_given || !given ? conflict.problem : fmt::format("{}: {}", blamed, conflict.problem);
+  const auto other = conflict.other_place ? given_path(reading, *conflict.other_place) : std::nullopt;
+  if (other) problem += fmt::format(" (line {})", reading.entries.at(*other).line);
+  return {.kind = Kind::conflict,
+          .file = reading.file,
+          .line = at.line,
+          .column = at.column,
+          .key = given.value_or(blamed),
+          .value = at.value,
+          .problem = problem,
+          .remedy = conflict.remedy};
+}
+
 /// Conflicts that involve a key with its own problem are omitted: they may vanish with it.
 void check_conflicts(Reading& reading, const Case& c) {
-  for (const Conflict& conflict : conflicts(c)) {
-    const auto& keys = conflict.keys;
-    if (std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return is_faulty(reading, key); }))
-      continue;
-    const auto given = std::find_if(keys.begin(), keys.end(),
-                                    [&](const auto& key) { return reading.entries.contains(key); });
-    const Entry at = given == keys.end() ? Entry{0, 0, ""} : reading.entries.at(*given);
-    const bool blamed_is_given = given == keys.begin();
-    std::string problem = blamed_is_given || given == keys.end()
-                              ? conflict.problem
-                              : fmt::format("{}: {}", keys.front(), conflict.problem);
-    if (const auto other = reading.entries.find(conflict.other_place); other != reading.entries.end())
-      problem += fmt::format(" (line {})", other->second.line);
-    reading.problems.push_back({.kind = Kind::conflict,
-                                .file = reading.file,
-                                .line = at.line,
-                                .column = at.column,
-                                .key = given == keys.end() ? keys.front() : *given,
-                                .value = at.value,
-                                .problem = problem,
-                                .remedy = conflict.remedy});
-  }
+  const auto has_a_problem = [&](const CaseKey& key) {
+    return std::ranges::any_of(key.paths(), [&](const auto& path) { return is_faulty(reading, path); });
+  };
+  for (const Conflict& conflict : conflicts(c))
+    if (std::ranges::none_of(conflict.keys, has_a_problem))
+      reading.problems.push_back(diagnostic(reading, conflict));
 }
 
 /// The table of a key: "shape.file[1]" of "shape.file[1].unit".
@@ -539,7 +554,7 @@ std::vector<Diagnostic> load_drawings(Reading& reading, Case& c) {
   std::vector<Diagnostic> in_drawings;
   const auto folder = std::filesystem::path(reading.file).parent_path();
   std::vector<FileProblem> problems = load_drawings(c, folder, may_be_read);
-  if (may_be_read(std::string(saved_shape_section().name) + ".from"))
+  if (may_be_read(key_of(&SavedShape::from).path()))
     std::ranges::move(load_saved_shape(c, folder), std::back_inserter(problems));
   for (FileProblem& problem : problems) {
     const auto given = reading.entries.find(problem.key);
@@ -606,12 +621,12 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
   for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
   Case result = read_root(reading, toml.root);
   const std::vector<Diagnostic> in_drawings = load_drawings(reading, result);
-  if (!reading.entries.contains("wheel.sectors"))
+  if (!given_path(reading, key_of(&Wheel::sectors)))
     result.wheel.sectors = sectors_by_drawings(result).value_or(result.wheel.sectors);
-  const auto is_given = [&](const char* key) { return reading.entries.contains(key); };
-  const GivenCells given_cells{.radial = is_given("grid.radial_cells"),
-                               .angular = is_given("grid.angular_cells"),
-                               .axial = is_given("grid.axial_cells")};
+  const auto is_given = [&](const CaseKey& key) { return given_path(reading, key).has_value(); };
+  const GivenCells given_cells{.radial = is_given(key_of(&Grid::radial_cells)),
+                               .angular = is_given(key_of(&Grid::angular_cells)),
+                               .axial = is_given(key_of(&Grid::axial_cells))};
   result = with_fitting_grid(std::move(result), given_cells);
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())

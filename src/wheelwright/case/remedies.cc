@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "wheelwright/case/number_text.h"
 
@@ -19,10 +20,11 @@ std::string if_in_millimetres(double length, double other) {
                      number_text(length / 1000));
 }
 
-std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
-  for (const char* key : {"wheel.inner_radius", "wheel.outer_radius", "optimizer.rim_band",
-                          "optimizer.tread_band", "grid.radial_cells", "objective.annulus"})
-    keys.push_back(key);
+CaseKeys with_ring_shape(CaseKeys keys) {
+  for (CaseKey key :
+       {key_of(&Wheel::inner_radius), key_of(&Wheel::outer_radius), key_of(&Optimizer::rim_band),
+        key_of(&Optimizer::tread_band), key_of(&Grid::radial_cells), key_of(&Objective::annulus)})
+    keys.push_back(std::move(key));
   return keys;
 }
 }  // namespace wheelwright

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
+
+#include "wheelwright/case/case_key.h"
 
 namespace wheelwright {
 
@@ -15,6 +16,6 @@ double rounded_up(double value);
 std::string if_in_millimetres(double length, double other);
 
 /// `keys`, followed by the keys that determine where holes may be.
-std::vector<std::string> with_ring_shape(std::vector<std::string> keys);
+CaseKeys with_ring_shape(CaseKeys keys);
 
 }  // namespace wheelwright

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "wheelwright/case/key_value.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/suggest.h"
@@ -53,16 +54,6 @@ std::vector<std::string_view> fitting_units(const Struct& table, const Key<Struc
   if constexpr (requires { table.quantity; })
     if (key.unit == unit_of_quantity) return units_like(unit<3>(kind(table.quantity)));
   return units_like(key.unit);
-}
-
-/// Resets the optional keys that another one replaces.
-template <class Struct>
-void reset_alternatives(Struct& out, const std::vector<Key<Struct>>& keys, const Key<Struct>& given) {
-  for (const Key<Struct>& key : keys) {
-    if (key.name == given.name || !are_alternatives(key, given)) continue;
-    if (const auto* field = std::get_if<OptionalNumberField<Struct>>(&key.field))
-      (out.*field->member).reset();
-  }
 }
 
 /// Nothing if the table has no such key.

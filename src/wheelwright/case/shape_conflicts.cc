@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,15 +21,11 @@ std::string point_text(const Point& p) { return fmt::format("[{:.6g}, {:.6g}] m"
 /// ", of line 12, <path>" if the place in the drawing is known.
 std::string place_text(const std::string& place) { return place.empty() ? "" : fmt::format(" ({})", place); }
 
-std::string shape_key(std::string_view section, std::size_t i, std::string_view name) {
-  return fmt::format("shape.{}[{}].{}", section, i + 1, name);
-}
-
 void check_slots(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.shapes.slots.size(); ++i)
     if (const SlotShape& slot = c.shapes.slots[i]; slot.width > slot.length)
       found.push_back(
-          {{shape_key("slot", i, "width"), shape_key("slot", i, "length")},
+          {{key_of(&SlotShape::width, i), key_of(&SlotShape::length, i)},
            fmt::format("wider than its length of {:.6g} m", slot.length),
            "the length is measured from end to end, with the round ends; or turn the slot with `angle`"});
 }
@@ -40,7 +37,7 @@ void check_annuli(const Case& c, Conflicts& found) {
     const double inner = annulus.inner_radius.value_or(low), outer = annulus.outer_radius.value_or(high);
     if (low >= high || inner < outer) continue;
     found.push_back(
-        {with_ring_shape({shape_key("annulus", i, "inner_radius"), shape_key("annulus", i, "outer_radius")}),
+        {with_ring_shape({key_of(&AnnulusShape::inner_radius, i), key_of(&AnnulusShape::outer_radius, i)}),
          fmt::format("the annulus starts at {:.6g} m and ends at {:.6g} m", inner, outer),
          "set inner_radius < outer_radius"});
   }
@@ -48,31 +45,33 @@ void check_annuli(const Case& c, Conflicts& found) {
 
 /// Keys that do not apply to the kind of a spoke.
 void check_kind_of_spoke(const SpokeShape& s, std::size_t i, Conflicts& found) {
-  const auto key = [&](std::string_view name) { return shape_key("spoke", i, name); };
-  const auto refuse = [&](bool is_wrong, std::string_view name, std::string problem, std::string remedy) {
-    if (is_wrong) found.push_back({{key(name), key("kind")}, std::move(problem), std::move(remedy)});
+  const auto refuse = [&](bool is_wrong, const CaseKey& key, std::string problem, std::string remedy) {
+    if (is_wrong)
+      found.push_back({{key, key_of(&SpokeShape::kind, i)}, std::move(problem), std::move(remedy)});
   };
   const bool curved = s.kind == SpokeKind::curved, forked = s.kind == SpokeKind::forked,
              pair = s.kind == SpokeKind::pair;
-  refuse(curved && s.bend == 0, "bend", "a curved spoke without bend is straight", "set its bend, e.g. 60");
-  refuse(!curved && s.bend != 0, "bend", "only curved spokes bend", "use kind = \"curved\", or omit the key");
-  refuse(forked && s.spread == 0, "spread", "the branches of the fork coincide", "set a spread > 0");
-  refuse(!forked && !pair && s.spread != 0, "spread", "only forked spokes and pairs have a spread",
-         "use another kind, or omit the key");
-  refuse(!forked && s.fork_radius, "fork_radius", "only forked spokes divide",
+  refuse(curved && s.bend == 0, key_of(&SpokeShape::bend, i), "a curved spoke without bend is straight",
+         "set its bend, e.g. 60");
+  refuse(!curved && s.bend != 0, key_of(&SpokeShape::bend, i), "only curved spokes bend",
+         "use kind = \"curved\", or omit the key");
+  refuse(forked && s.spread == 0, key_of(&SpokeShape::spread, i), "the branches of the fork coincide",
+         "set a spread > 0");
+  refuse(!forked && !pair && s.spread != 0, key_of(&SpokeShape::spread, i),
+         "only forked spokes and pairs have a spread", "use another kind, or omit the key");
+  refuse(!forked && s.fork_radius, key_of(&SpokeShape::fork_radius, i), "only forked spokes divide",
          "use kind = \"forked\", or omit the key");
-  refuse(pair && s.spread == 0 && s.angle == 0, "angle", "the two spokes of the pair coincide",
-         "set an angle or a spread");
+  refuse(pair && s.spread == 0 && s.angle == 0, key_of(&SpokeShape::angle, i),
+         "the two spokes of the pair coincide", "set an angle or a spread");
 }
 
 void check_spoke(const Case& c, std::size_t i, Conflicts& found) {
   const SpokeShape& s = c.shapes.spokes[i];
-  const auto key = [&](std::string_view name) { return shape_key("spoke", i, name); };
   check_kind_of_spoke(s, i, found);
   const double inner = s.inner_radius.value_or(c.wheel.inner_radius),
                outer = s.outer_radius.value_or(c.wheel.outer_radius);
-  const std::vector<std::string> ends{key("inner_radius"), key("outer_radius"), "wheel.inner_radius",
-                                      "wheel.outer_radius"};
+  const CaseKeys ends{key_of(&SpokeShape::inner_radius, i), key_of(&SpokeShape::outer_radius, i),
+                      key_of(&Wheel::inner_radius), key_of(&Wheel::outer_radius)};
   if (c.wheel.inner_radius >= c.wheel.outer_radius) return;
   if (inner >= outer) {
     found.push_back({ends, fmt::format("the spoke starts at {:.6g} m and ends at {:.6g} m", inner, outer),
@@ -80,19 +79,20 @@ void check_spoke(const Case& c, std::size_t i, Conflicts& found) {
     return;
   }
   if (s.thickness >= outer - inner)
-    found.push_back({{key("thickness"), ends[0], ends[1], ends[2], ends[3]},
+    found.push_back({{key_of(&SpokeShape::thickness, i), ends[0], ends[1], ends[2], ends[3]},
                      fmt::format("thicker than the spoke is long, {:.6g} m", outer - inner),
                      "use thinner spokes"});
   if (s.fork_radius && (*s.fork_radius <= inner || *s.fork_radius >= outer))
-    found.push_back({{key("fork_radius"), ends[0], ends[1], ends[2], ends[3]},
+    found.push_back({{key_of(&SpokeShape::fork_radius, i), ends[0], ends[1], ends[2], ends[3]},
                      fmt::format("not between the ends of the spoke, at {:.6g} m and {:.6g} m", inner, outer),
                      "use a radius between them"});
   const double chord = std::sqrt(inner * inner + outer * outer - 2 * inner * outer * std::cos(s.angle));
   const double radius = s.bend == 0 ? HUGE_VAL : 0.5 * chord / std::abs(std::sin(0.5 * s.bend));
   if (s.kind == SpokeKind::curved && (std::abs(s.bend) > std::numbers::pi || radius <= s.thickness))
-    found.push_back({{key("bend"), key("thickness"), key("angle")},
-                     "bent so much that the spoke intersects itself",
-                     "use a bend between -180 and 180, or thinner spokes"});
+    found.push_back(
+        {{key_of(&SpokeShape::bend, i), key_of(&SpokeShape::thickness, i), key_of(&SpokeShape::angle, i)},
+         "bent so much that the spoke intersects itself",
+         "use a bend between -180 and 180, or thinner spokes"});
 }
 
 /// The innermost and outermost points of an outline.
@@ -109,14 +109,19 @@ RadialExtent radial_extent(const DrawnShape& shape, std::string& lowest_place, s
   return all;
 }
 
+/// The drawing of a shape that comes from a file of curves; null for others.
+const Drawing* drawing_of(const DrawnShape& shape, const Case& c) {
+  for (std::size_t i = 0; i < c.shapes.files.size(); ++i)
+    if (shape.table == table_of<FileShape>(i)) return c.shapes.files[i].drawing.contents.get();
+  return nullptr;
+}
+
 /// The size of a drawing in other units, if it is far too large or too small for the wheel.
 std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
   constexpr double far_off = 8;
   const double ratio = reach / c.wheel.outer_radius;
-  if (!shape.key.starts_with("shape.file") || (ratio < far_off && ratio > 1 / far_off)) return "";
-  const int number = std::stoi(shape.key.substr(shape.key.find('[') + 1));
-  const auto& drawing = c.shapes.files[number - 1].drawing.contents;
-  if (!drawing) return "";
+  const Drawing* drawing = drawing_of(shape, c);
+  if (!drawing || (ratio < far_off && ratio > 1 / far_off)) return "";
   const double units = reach / drawing->metres_per_unit;
   return fmt::format(
       "is its unit correct? The drawing extends to {:.6g} of its units from the axle: {:.4g} m if they are "
@@ -128,7 +133,7 @@ std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
 std::string whole_wheel_hint(const DrawnShape& shape, const Case& c, double reach) {
   constexpr double near = 0.01;
   const bool shows_tread = std::abs(reach - c.wheel.outer_radius) < near * c.wheel.outer_radius;
-  if (!shape.key.starts_with("shape.file") || shape.fill != Fill::hole || !shows_tread) return "";
+  if (!drawing_of(shape, c) || shape.fill != Fill::hole || !shows_tread) return "";
   return "if it shows the whole wheel with its tread, put [[shape.annulus]] before it and set as = "
          "\"material\"";
 }
@@ -152,7 +157,7 @@ void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
                     hint = unit.empty() ? whole_wheel_hint(shape, c, extent.high) : unit;
   const std::string allowed =
       is_hole ? "between the bands at rim and tread there is only" : "the ring has only";
-  found.push_back({with_ring_shape({shape.key}),
+  found.push_back({with_ring_shape({shape.table}),
                    fmt::format("{} {}; {} {:.6g} m to {:.6g} m", is_hole ? "the hole" : "the material", where,
                                allowed, region.inner, region.outer),
                    (hint.empty() ? "move it, or make it smaller" : hint) +
@@ -163,7 +168,7 @@ void check_crossings(const DrawnShape& shape, Conflicts& found) {
   constexpr int most = 3;
   for (const DrawnOutline& outline : shape.first)
     for (const Crossing& crossing : crossings(outline, most))
-      found.push_back({{shape.key},
+      found.push_back({{shape.table},
                        fmt::format("the outline crosses or touches itself at {}{}", point_text(crossing.at),
                                    place_text(crossing.first)),
                        "correct its points"});
@@ -174,7 +179,7 @@ void check_pictures(const Case& c, Conflicts& found) {
     const PictureShape& picture = c.shapes.pictures[i];
     const bool is_wheel = picture.layout == PictureLayout::wheel;
     if (is_wheel == picture.width.has_value()) continue;
-    found.push_back({{shape_key("picture", i, "width"), fmt::format("shape.picture[{}]", i + 1)},
+    found.push_back({{key_of(&PictureShape::width, i), table_of<PictureShape>(i)},
                      is_wheel ? "missing: a picture has no scale"
                               : "the picture of a sector needs no width: it is as wide as the sector",
                      is_wheel ? "set the width of the whole picture in metres" : "omit the key"});
@@ -194,7 +199,7 @@ void check_repetition(const Case& c, const std::vector<DrawnShape>& shapes, cons
       "what {} draws is not the same in {} sectors: turned by {:.6g} degrees it differs by up to {:.3g} mm, "
       "at "
       "{}",
-      shape.key, sectors, 360.0 / sectors, most.distance * 1e3, point_text(most.at));
+      shape.table.path(), sectors, 360.0 / sectors, most.distance * 1e3, point_text(most.at));
   if (most_sectors_of(c, shape) == 1) {
     if (const auto near = nearly_fitting(c, shape))
       problem +=
@@ -203,7 +208,7 @@ void check_repetition(const Case& c, const std::vector<DrawnShape>& shapes, cons
       problem += fmt::format("; if it shows one of {} equal parts, give count = {}", sectors, sectors);
   }
   found.push_back(
-      {{"wheel.sectors", shape.key + ".path", shape.key},
+      {{key_of(&Wheel::sectors), shape.path_key, shape.table},
        std::move(problem),
        fmt::format("values of wheel.sectors that fit all rings and shapes: {}", fmt::join(fitting, ", "))});
 }
@@ -213,7 +218,7 @@ void check_number_of_curves(const std::vector<DrawnShape>& shapes, Conflicts& fo
   for (const DrawnShape& shape : shapes) {
     total += curve_count(shape);
     if (total <= most_curves) continue;
-    found.push_back({{shape.key},
+    found.push_back({{shape.table},
                      fmt::format("the shapes up to this one have {} curves around the wheel", total),
                      fmt::format("at most {} are accepted; simplify the drawing", most_curves)});
     return;
@@ -224,7 +229,7 @@ void check_number_of_curves(const std::vector<DrawnShape>& shapes, Conflicts& fo
 void check_material_on_the_ring(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
   const auto is_hole = [](const DrawnShape& shape) { return shape.fill == Fill::hole; };
   if (shapes.empty() || c.holes != Holes{} || std::ranges::any_of(shapes, is_hole)) return;
-  found.push_back({{shapes.front().key},
+  found.push_back({{shapes.front().table},
                    "it draws material on a full ring, so nothing is cut out of it",
                    "put [[shape.annulus]] before it, or set as = \"hole\""});
 }

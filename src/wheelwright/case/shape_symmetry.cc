@@ -103,7 +103,7 @@ std::vector<DrawingRepetition> drawing_repetitions(const Case& c) {
     if (const auto near = n == 0 ? std::nullopt : nearly_fitting(c, shape))
       text += fmt::format("; wheel.sectors = {} would be right within {:.3g} mm", near->sectors,
                           near->distance * 1e3);
-    result.push_back({shape.key, std::move(text)});
+    result.push_back({shape.table.path(), std::move(text)});
   }
   return result;
 }
@@ -117,7 +117,7 @@ std::vector<std::string> asymmetry_warnings(const Case& c) {
       result.push_back(
           fmt::format("{} is not quite the same in {} sectors: edges differ by up to {:.3g} mm, at [{:.6g}, "
                       "{:.6g}] m; the sector from azimuth 0 is used for all",
-                      shape.key, c.wheel.sectors, found.distance * 1e3, found.at[0], found.at[1]));
+                      shape.table.path(), c.wheel.sectors, found.distance * 1e3, found.at[0], found.at[1]));
   }
   return result;
 }

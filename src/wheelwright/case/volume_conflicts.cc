@@ -22,7 +22,7 @@ void volume_conflicts(const Case& c, Conflicts& found) {
   const double low = w.inner_radius + rim.thickness, high = w.outer_radius - tread.thickness;
   if (!c.volume.target || low >= high) return;
   if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never) {
-    found.push_back({{"volume.target"},
+    found.push_back({{key_of(&Volume::target)},
                      "there are no holes that could grow or shrink",
                      "add holes, or set optimizer.nucleation = \"converged\", or omit the key"});
     return;
@@ -32,11 +32,12 @@ void volume_conflicts(const Case& c, Conflicts& found) {
   const double most = 1 - double(w.sectors) / (double(c.grid.radial_cells) * c.grid.angular_cells);
   if (*c.volume.target <= least)
     found.push_back(
-        {with_ring_shape({"volume.target"}),
+        {with_ring_shape({key_of(&Volume::target)}),
          fmt::format("the bands at rim and tread, which remain material, are {:.6g} of the ring", least),
          fmt::format("use more than {:.3g}, or thinner bands", rounded_up(least))});
   if (*c.volume.target > most)
-    found.push_back({{"volume.target", "grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
+    found.push_back({{key_of(&Volume::target), key_of(&Grid::radial_cells), key_of(&Grid::angular_cells),
+                      key_of(&Wheel::sectors)},
                      "holes of one cell in every sector leave less material than that",
                      fmt::format("use at most {:.9g}, or a finer grid", std::floor(most * 1e9) / 1e9)});
 }

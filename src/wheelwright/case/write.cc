@@ -9,6 +9,7 @@
 #include <map>
 #include <type_traits>
 
+#include "wheelwright/case/key_value.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 
@@ -146,14 +147,6 @@ std::string default_text(const Key<Struct>& key) {
 template <class Struct>
 bool is_fitted(const Key<Struct>& key) {
   return std::holds_alternative<IntegerField<Struct>>(key.field) && !default_text(key).empty();
-}
-
-/// Whether the resolved case omits the key because a later one of its alternatives has a value.
-template <class Struct>
-bool is_superseded(const std::vector<Key<Struct>>& keys, const Key<Struct>& key, const Struct& s) {
-  return std::any_of(keys.begin(), keys.end(), [&](const auto& other) {
-    return &other > &key && are_alternatives(other, key) && !value_text(other, s).empty();
-  });
 }
 
 template <class Struct>

@@ -27,8 +27,8 @@ using FieldPlace =
 
 /// A field of a command: from it follow how the command is read, written and explained.
 struct CommandField {
-  const char* key;      ///< with its unit, e.g. "radius_m"
-  const char* meaning;  ///< half a line
+  std::string key;      ///< with its unit, e.g. "radius_m"
+  std::string meaning;  ///< half a line
   FieldPlace place;
 };
 using CommandFields = std::vector<CommandField>;

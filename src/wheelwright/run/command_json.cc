@@ -12,12 +12,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Pair = std::array<double, 2>;
 
-void write(Json& json, const char* key, const auto& value) { json[key] = value; }
+void write(Json& json, const std::string& key, const auto& value) { json[key] = value; }
 template <class T>
-void write(Json& json, const char* key, const std::optional<T>& value) {
+void write(Json& json, const std::string& key, const std::optional<T>& value) {
   if (value) json[key] = *value;
 }
-void write(Json& json, const char* key, Fill fill) { json[key] = fill == Fill::hole ? "hole" : "material"; }
+void write(Json& json, const std::string& key, Fill fill) {
+  json[key] = fill == Fill::hole ? "hole" : "material";
+}
 
 void write(Json& json, const CommandFields& fields) {
   for (const CommandField& field : fields)

@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
-#include "wheelwright/case/load_case_change.h"
+#include "wheelwright/case/key_value.h"
+#include "wheelwright/case/load_values.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
 
@@ -24,33 +24,16 @@ CommandKinds kinds_of() {
   return {command_kind<C>()...};
 }
 
-std::string load_text(const Load& load) {
-  std::string text = load.travel ? fmt::format("rim travel {:.6g} m", *load.travel)
-                                 : fmt::format("force {:.6g} N", load.force);
-  if (load.horizontal_force != 0) text += fmt::format(", horizontal force {:.6g} N", load.horizontal_force);
-  if (load.lateral_force != 0) text += fmt::format(", lateral force {:.6g} N", load.lateral_force);
-  if (load.camber != 0) text += fmt::format(", camber {:.6g} deg", load.camber * 180 / std::numbers::pi);
-  if (load.torque != 0) text += fmt::format(", torque {:.6g} N m", load.torque);
-  if (load.hole_pressure != 0) text += fmt::format(", hole pressure {:.6g} Pa", load.hole_pressure);
-  if (load.body_force != Load{}.body_force)
-    text += fmt::format(", body force {:.6g} N/m^3", fmt::join(load.body_force, " and "));
-  if (load.speed != 0) text += fmt::format(", speed {:.6g} m/s", load.speed);
-  return text + fmt::format(", {} positions", load.positions);
-}
-
 }  // namespace
 
 CommandFields load_fields(Load& load) {
-  return {{"force_N", "", &load.force},
-          {"travel_m", "of the rim, in place of the force", &load.travel},
-          {"horizontal_force_N", "", &load.horizontal_force},
-          {"lateral_force_N", "", &load.lateral_force},
-          {"camber_rad", "", &load.camber},
-          {"torque_N_m", "", &load.torque},
-          {"body_force_N_per_m3", "[along the ground, down]", &load.body_force},
-          {"hole_pressure_Pa", "", &load.hole_pressure},
-          {"speed_m_per_s", "", &load.speed},
-          {"positions", "per sector", &load.positions}};
+  CommandFields fields;
+  for (const Key<Load>* key : load_values())
+    visit_value(*key, load, [&](auto& value) {
+      if constexpr (requires { CommandField{"", "", &value}; })
+        fields.push_back({json_name(*key), std::string(key->meaning), &value});
+    });
+  return fields;
 }
 
 CommandFields NewLoad::fields() {
@@ -116,7 +99,7 @@ CommandResult NewLoad::execute(RunControl& run) const {
   const auto found = std::ranges::find(c.load.cases, *load_case, &CaseLoad::name);
   if (found == c.load.cases.end()) return Refusal{fmt::format("there is no load case {}", *load_case)};
   if (!is_load_of_a_case(c.load, load))
-    return Refusal{"lateral force, camber and load positions are the same in all load cases"};
+    return Refusal{fmt::format("{} are the same in all load cases", fmt::join(shared_load_keys(), ", "))};
   *found = changed_load_case(*found, c.load, load);
   return changed(run, c, fmt::format("new load in {}: {}", *load_case, load_text(load)));
 }

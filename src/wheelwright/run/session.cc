@@ -70,7 +70,8 @@ template <int dim>
 NextStage<dim> Session<dim>::at(const LevelSet<dim>& shape, const ShapeOptimizer<dim>& optimizer) const {
   auto there = restarted(optimizer, with_shape(*state_, shape));
   if (!there) return there.failure();
-  return Stage<dim>{bench_, std::move(there->state), *initial_, {}, std::move(there->trial)};
+  InitialShape<dim> initial = *initial_;
+  return Stage<dim>{bench_, std::move(there->state), std::move(initial), {}, std::move(there->trial)};
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/case/case_key.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
@@ -24,9 +25,9 @@ Case with_default_grid(Case c, const GivenCells& given) {
 /// The sizes given by the case file or the sweep.
 GivenCells with_swept(GivenCells given, const std::vector<SweptKey>& keys) {
   for (const SweptKey& swept : keys) {
-    given.radial |= swept.key == "grid.radial_cells";
-    given.angular |= swept.key == "grid.angular_cells";
-    given.axial |= swept.key == "grid.axial_cells";
+    given.radial |= swept.key == key_of(&Grid::radial_cells).path();
+    given.angular |= swept.key == key_of(&Grid::angular_cells).path();
+    given.axial |= swept.key == key_of(&Grid::axial_cells).path();
   }
   return given;
 }

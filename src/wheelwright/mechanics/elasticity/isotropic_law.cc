@@ -30,6 +30,13 @@ void IsotropicLaw<dim>::stress(const StrainRows<dim>& strains, const StressRows<
 }
 
 template <int dim>
+Voigt<dim> IsotropicLaw<dim>::stress_at(const Voigt<dim>& strain) const {
+  Voigt<dim> result;
+  IsotropicLaw::stress(one_strain<dim>(strain), one_stress<dim>(result));
+  return result;
+}
+
+template <int dim>
 void IsotropicLaw<dim>::tangent(const StrainRows<dim>& strains, const TangentRows<dim>& tangents) const {
   for (int k = 0; k < n_strains<dim>; ++k)
     for (int l = 0; l < n_strains<dim>; ++l) {
@@ -41,7 +48,7 @@ void IsotropicLaw<dim>::tangent(const StrainRows<dim>& strains, const TangentRow
 template <int dim>
 void IsotropicLaw<dim>::energy_density(const StrainRows<dim>& strains, std::span<double> densities) const {
   for (size_t i = 0; i < densities.size(); ++i) {
-    const Voigt<dim> strain = at_point<dim>(strains, i), sigma = wheelwright::stress<dim>(*this, strain);
+    const Voigt<dim> strain = at_point<dim>(strains, i), sigma = stress_at(strain);
     densities[i] = 0;
     for (int k = 0; k < n_strains<dim>; ++k) densities[i] += 0.5 * sigma[k] * strain[k];
   }
@@ -69,7 +76,7 @@ template <int dim>
 void IsotropicLaw<dim>::along_axle(const StrainRows<dim>& strains, std::span<double> axial_stresses,
                                    std::span<double> axial_strains) const {
   for (size_t i = 0; i < strains[0].size(); ++i) {
-    const Voigt<dim> sigma = wheelwright::stress<dim>(*this, at_point<dim>(strains, i));
+    const Voigt<dim> sigma = stress_at(at_point<dim>(strains, i));
     axial_stresses[i] = material_.axial_stress_ratio() * (sigma[0] + sigma[1]);
     axial_strains[i] = material_.axial_strain_ratio() * (strains[0][i] + strains[1][i]);
   }

@@ -24,6 +24,9 @@ class IsotropicLaw : public MaterialLaw<dim> {
   const Material* isotropic() const override { return &material_; }
 
  private:
+  /// Its own stress, whatever a derived class adds.
+  Voigt<dim> stress_at(const Voigt<dim>& strain) const;
+
   Material material_;
   double lambda_, mu_;
 };

@@ -88,7 +88,8 @@ std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector
 
 template <int dim>
 Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point) {
-  Vec<dim> polar = componentwise_product(point, lattice.spacing());
+  Vec<dim> polar;
+  for (int d = 0; d < dim; ++d) polar[d] = point[d] * lattice.spacing()[d];
   polar[0] += lattice.grid().inner_radius;
   return cartesian<dim>(polar);
 }

@@ -1,11 +1,14 @@
 #include "wheelwright/web/watch/frame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/load_values.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/output/report/solution_fields.h"
@@ -31,6 +34,25 @@ Json load_cases_json(const Case& c) {
   for (std::size_t k = 0; k < c.load.cases.size(); ++k)
     loads.push_back({{"name", c.load.cases[k].name}, {"load", Json::parse(load_json(singles[k].load))}});
   return loads;
+}
+
+/// The numbers of a load that a page can change, in the units that it displays.
+Json load_keys_json() {
+  constexpr double millimetres = 1e3;
+  Json keys = Json::array();
+  for (const Key<Load>* key : load_values()) {
+    const auto* number = std::get_if<NumberField<Load>>(&key->field);
+    if (!number && !std::holds_alternative<OptionalNumberField<Load>>(key->field)) continue;
+    const bool is_length = key->unit == "m";
+    const double factor = is_length ? millimetres : 1 / (number ? number->factor : 1);
+    std::string words(key->name);
+    std::ranges::replace(words, '_', ' ');
+    keys.push_back({{"id", key->name},
+                    {"key", json_name(*key)},
+                    {"text", fmt::format("{} [{}]", words, is_length ? "mm" : key->unit)},
+                    {"factor", factor}});
+  }
+  return keys;
 }
 
 /// The conversion of a number in a case or history to display units.
@@ -64,6 +86,7 @@ Json settings_json(const WatchedShape<dim>& shape) {
   const double ring = sector_measure<dim>(shape.psi.lattice.grid());
   return {{"load", Json::parse(load_json(c.load))},
           {"load_cases", load_cases_json(c)},
+          {"load_keys", load_keys_json()},
           {"weights", weights_json(c.objective)},
           {"volume_target", shape.target_measure / ring},
           {"minimum_wall_m", c.optimizer.minimum_wall.value_or(0)},

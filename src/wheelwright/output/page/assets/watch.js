@@ -1,6 +1,6 @@
 "use strict";
 (() => {
-  const { colour, element, chart } = parts, { shown, short, briefChange, degree, words } = formats;
+  const { colour, element, chart } = parts, { shown, short, briefChange, words } = formats;
   const { numberRows, boundRow, clauses, newest, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
   const at = (id) => document.getElementById(id);
 
@@ -675,18 +675,15 @@
   }
 
   let settings = null;
-  // The load of the chosen load case: mass, force or travel, and the rest.
+  // The load of the chosen load case.
   function loadSettings() {
     const one = (id, text, key, factor, first) => setting(id, text, {
       ...sliders.aroundLoad(first * factor),
       digits: 4, value: () => loadOf()[key] * factor, command: (v) => newLoad({ [key]: v / factor }) });
     const load = loadOf();
-    const others = [["horizontal", "horizontal force [N]", "horizontal_force_N", 1], ["lateral", "lateral force [N]", "lateral_force_N", 1],
-      ["camber", "camber [\u00b0]", "camber_rad", degree], ["torque", "torque [N m]", "torque_N_m", 1],
-      ["speed", "speed [m/s]", "speed_m_per_s", 1]];
-    return [load.travel_m === undefined ? one("force", "load [N]", "force_N", 1, load.force_N)
-      : one("travel", "travel [mm]", "travel_m", 1e3, load.travel_m),
-    ...others.filter(([, , key]) => load[key] !== 0).map(([id, text, key, factor]) => one(id, text, key, factor, load[key]))];
+    // Of force and travel the one in force; of the others those that act.
+    return frame.settings.load_keys.filter(({ key }) => load[key] && !(key === "force_N" && load.travel_m !== undefined))
+      .map(({ id, text, key, factor }) => one(id, text, key, factor, load[key]));
   }
 
   function makeSettings() {

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "wheelwright/case/keys.h"
+
+namespace wheelwright {
+
+// The numbers and points of a struct by their keys: what copies, compares or sends all of them visits the
+// declarations.
+
+/// In SI units and radians, as the member has it.
+using KeyValue = std::variant<int, double, std::array<double, 2>>;
+
+/// The member of a key, if it is a number or a point, passed to visit(); it may be optional.
+template <class Struct, class SomeStruct, class Visitor>
+void visit_value(const Key<Struct>& key, SomeStruct& s, Visitor&& visit) {
+  std::visit(
+      [&]<class Field>(const Field& field) {
+        if constexpr (std::is_same_v<Field, NumberField<Struct>> ||
+                      std::is_same_v<Field, OptionalNumberField<Struct>> ||
+                      std::is_same_v<Field, IntegerField<Struct>> ||
+                      std::is_same_v<Field, OptionalIntegerField<Struct>> ||
+                      std::is_same_v<Field, PointField<Struct>> ||
+                      std::is_same_v<Field, OptionalPointField<Struct>>)
+          visit(s.*field.member);
+      },
+      key.field);
+}
+
+template <class Value>
+std::optional<KeyValue> key_value(const Value& value) {
+  return KeyValue(value);
+}
+template <class Value>
+std::optional<KeyValue> key_value(const std::optional<Value>& value) {
+  return value ? std::optional(KeyValue(*value)) : std::nullopt;
+}
+
+/// The value of a key; nothing if it is absent, or no number or point.
+template <class Struct>
+std::optional<KeyValue> value(const Key<Struct>& key, const Struct& s) {
+  std::optional<KeyValue> result;
+  visit_value(key, s, [&](const auto& member) { result = key_value(member); });
+  return result;
+}
+
+template <class Value>
+void assign(Value& member, const std::optional<KeyValue>& value) {
+  if (value) member = std::get<Value>(*value);
+}
+template <class Value>
+void assign(std::optional<Value>& member, const std::optional<KeyValue>& value) {
+  member = value ? std::optional(std::get<Value>(*value)) : std::nullopt;
+}
+
+/// Sets the member of a key to a value of its type. An absent value changes optional members only.
+template <class Struct>
+void set_value(const Key<Struct>& key, Struct& s, const std::optional<KeyValue>& value) {
+  visit_value(key, s, [&](auto& member) { assign(member, value); });
+}
+
+/// Resets the optional keys that another one replaces.
+template <class Struct>
+void reset_alternatives(Struct& s, const std::vector<Key<Struct>>& keys, const Key<Struct>& given) {
+  for (const Key<Struct>& key : keys) {
+    if (place(key, s) == place(given, s) || !are_alternatives(key, given)) continue;
+    if (const auto* field = std::get_if<OptionalNumberField<Struct>>(&key.field)) (s.*field->member).reset();
+  }
+}
+
+/// Whether a later alternative of the key has a value, and so is in force.
+template <class Struct>
+bool is_superseded(const std::vector<Key<Struct>>& keys, const Key<Struct>& key, const Struct& s) {
+  return std::any_of(keys.begin(), keys.end(), [&](const Key<Struct>& other) {
+    return &other > &key && are_alternatives(other, key) && value(other, s);
+  });
+}
+
+}  // namespace wheelwright
