@@ -36,6 +36,9 @@ const std::vector<UnitsOfKind>& known_units() {
       {{"kg/m"}},
       {{"N/m^2"}},
       {{"N/rad"}},
+      {{"m^2"}},
+      {{"m^3"}, {"mm^3", 1, 1e9}},
+      {{"turns below a cell"}},
       {{"-"}, {"%", 1, 100}}};
   return kinds;
 }
