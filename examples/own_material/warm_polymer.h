@@ -65,6 +65,7 @@ class WarmPolymer : public wheelwright::MaterialLaw<2> {
   }
 
   double scaling_modulus() const override { return e_; }
+  double contact_modulus() const override { return e_ / (1 - nu_ * nu_); }
 
  private:
   double shear() const { return e_ / (2 * (1 + nu_)); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace wheelwright {
 namespace {
@@ -36,15 +37,58 @@ StressRows<dim> rows(OnDofs<dim>& stresses, int n_dofs) {
   return result;
 }
 
-/// The stress 2 mu (eps - tr(eps) / dim I).
+/// The constants of sigma = lambda tr(eps) I + 2 mu eps.
+struct Lame {
+  double lambda, mu;
+};
+
+/// Those of a law whose tangent has exactly this form; empty for other laws. All such laws give the same
+/// elements to the last bit, with fewer products.
 template <int dim>
-void deviatoric_stress(double mu, const StrainRows<dim>& strains, const StressRows<dim>& stresses) {
-  for (size_t i = 0; i < strains[0].size(); ++i) {
+std::optional<Lame> lame_constants(const MaterialLaw<dim>& law) {
+  constexpr int n = n_strains<dim>;
+  std::array<Voigt<dim>, n> d;
+  TangentRows<dim> rows;
+  for (int k = 0; k < n; ++k)
+    for (int l = 0; l < n; ++l) rows[k][l] = {&d[k][l], 1};
+  law.tangent(one_strain<dim>({}), rows);
+  const Lame lame{d[0][1], d[n - 1][n - 1]};
+  for (int k = 0; k < n; ++k)
+    for (int l = 0; l < n; ++l) {
+      const double shared = k < dim && l < dim ? lame.lambda : 0;
+      if (d[k][l] != shared + (k != l ? 0 : k < dim ? 2 * lame.mu : lame.mu)) return {};
+    }
+  return lame;
+}
+
+template <int dim>
+Voigt<dim> stress(const Lame& lame, const Voigt<dim>& strain) {
+  double trace = 0;
+  for (int d = 0; d < dim; ++d) trace += strain[d];
+  Voigt<dim> result;
+  for (int s = 0; s < n_strains<dim>; ++s)
+    result[s] = s < dim ? lame.lambda * trace + 2 * lame.mu * strain[s] : lame.mu * strain[s];
+  return result;
+}
+
+/// The stresses of the strains of all dofs, times a weight.
+template <int dim>
+void weighted_stresses(const Lame& lame, const OnDofs<dim>& strains, int n_dofs, double weight,
+                       OnDofs<dim>& result) {
+  const double lambda = lame.lambda, mu = lame.mu;
+  for (int dof = 0; dof < n_dofs; ++dof) {
     double trace = 0;
-    for (int d = 0; d < dim; ++d) trace += strains[d][i];
+    for (int d = 0; d < dim; ++d) trace += strains[d][dof];
     for (int s = 0; s < n_strains<dim>; ++s)
-      stresses[s][i] = s < dim ? -2 * mu / dim * trace + 2 * mu * strains[s][i] : mu * strains[s][i];
+      result[s][dof] = weight * (s < dim ? lambda * trace + 2 * mu * strains[s][dof] : mu * strains[s][dof]);
   }
+}
+template <int dim>
+void weighted_stresses(const MaterialLaw<dim>& law, const OnDofs<dim>& strains, int n_dofs, double weight,
+                       OnDofs<dim>& result) {
+  law.stress(rows<dim>(strains, n_dofs), rows<dim>(result, n_dofs));
+  for (auto& component : result)
+    for (int dof = 0; dof < n_dofs; ++dof) component[dof] *= weight;
 }
 
 }  // namespace
@@ -200,12 +244,12 @@ template <int dim>
 std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
     const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
     const typename ElasticElement<dim>::Point& point, const Vec<dim>& normal) {
-  OnDofs<dim> stresses;
-  law.stress(rows<dim>(point.strain, element.n_dofs()), rows<dim>(stresses, element.n_dofs()));
+  const auto lame = lame_constants(law);
   std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> result{};
   for (int dof = 0; dof < element.n_dofs(); ++dof) {
-    Voigt<dim> sigma;
-    for (int s = 0; s < n_strains<dim>; ++s) sigma[s] = stresses[s][dof];
+    Voigt<dim> strain;
+    for (int s = 0; s < n_strains<dim>; ++s) strain[s] = point.strain[s][dof];
+    const Voigt<dim> sigma = lame ? stress<dim>(*lame, strain) : stress<dim>(law, strain);
     const Vec<dim> t = traction<dim>(sigma, normal);
     for (int d = 0; d < dim; ++d) result[d][dof] = t[d];
   }
@@ -217,17 +261,22 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>
                       std::span<const ReferencePoint<dim>> points) {
   const int n = element.n_dofs();
   Matrix k(n, n);
+  auto lame = lame_constants(law);
+  if (element.projects_dilatation()) {
+    const double mu = law.isotropic()->mu();
+    lame = Lame{-2 * mu / dim, mu};  // the rest is added below
+  }
   OnDofs<dim> stresses;
   for (const auto& q : points) {
     const auto point = element.at(q.xi);
     const double weight = q.weight * point.determinant;
-    if (element.projects_dilatation())
-      deviatoric_stress<dim>(law.isotropic()->mu(), rows<dim>(point.strain, n), rows<dim>(stresses, n));
+    if (lame)
+      weighted_stresses<dim>(*lame, point.strain, n, weight, stresses);
     else
-      law.stress(rows<dim>(point.strain, n), rows<dim>(stresses, n));
+      weighted_stresses<dim>(law, point.strain, n, weight, stresses);
     for (int j = 0; j < n; ++j)
       for (int s = 0; s < n_strains<dim>; ++s) {
-        const double value = weight * stresses[s][j];
+        const double value = stresses[s][j];
         double* column = k.column(j);
         for (int i = j; i < n; ++i) column[i] += point.strain[s][i] * value;
       }
