@@ -75,10 +75,12 @@ void IsotropicLaw<dim>::squared_von_mises_slope(const StrainRows<dim>& strains,
 template <int dim>
 void IsotropicLaw<dim>::along_axle(const StrainRows<dim>& strains, std::span<double> axial_stresses,
                                    std::span<double> axial_strains) const {
+  const double stress_by_trace = material_.axial_stress_ratio() * 2 * (lambda_ + mu_),
+               strain_by_trace = material_.axial_strain_ratio();
   for (size_t i = 0; i < strains[0].size(); ++i) {
-    const Voigt<dim> sigma = stress_at(at_point<dim>(strains, i));
-    axial_stresses[i] = material_.axial_stress_ratio() * (sigma[0] + sigma[1]);
-    axial_strains[i] = material_.axial_strain_ratio() * (strains[0][i] + strains[1][i]);
+    const double trace = strains[0][i] + strains[1][i];
+    axial_stresses[i] = stress_by_trace * trace;
+    axial_strains[i] = strain_by_trace * trace;
   }
 }
 

@@ -33,12 +33,12 @@ struct SquaredPeaks {
 
 /// Compares squares first: computes roots only if the current peak may be exceeded.
 template <int dim>
-double larger_squared_principal(double so_far, const Voigt<dim>& strain, double axial) {
+double larger_squared_principal(double so_far, const double* strain, double axial) {
   double square = 0;
   for (int k = 0; k < dim; ++k) square += strain[k] * strain[k];
   for (int k = dim; k < n_strains<dim>; ++k) square += 0.5 * strain[k] * strain[k];
   if (std::max(square, axial * axial) <= so_far) return so_far;  // e_1^2 <= e:e
-  for (const double e : principal_strains<dim>(strain.data(), axial)) so_far = std::max(so_far, e * e);
+  for (const double e : principal_strains<dim>(strain, axial)) so_far = std::max(so_far, e * e);
   return so_far;
 }
 
@@ -72,24 +72,24 @@ void add_cell(const StateSolver<dim>& solver, const Displacement<dim>& displacem
               const std::vector<Vec<dim>>& points, SquaredPeaks<dim>& peaks) {
   const PolarGrid<dim>& grid = solver.model().grid;
   const MaterialLaw<dim>& law = solver.model().materials.in_row(grid.cell_position(cell)[0]);
-  const Matrix strains = strains_by_component<dim>(displacement.strains(cell, points));
+  const Matrix by_case = displacement.strains(cell, points), strains = strains_by_component<dim>(by_case);
   const auto columns = strain_columns<dim>(strains, 0);
   std::vector<double> squares(strains.rows()), axial_stresses(dim == 2 ? strains.rows() : 0),
       axial_strains(strains.rows());
   law.squared_von_mises(columns, squares);
   if (dim == 2) law.along_axle(columns, axial_stresses, axial_strains);
-  for (int i = 0; i < strains.rows(); ++i) {
-    const int n_points = static_cast<int>(points.size()), load_case = i / n_points,
-              position = load_case / grid.n_sectors;
-    if (squares[i] > peaks.von_mises[position]) {
-      peaks.von_mises[position] = squares[i];
-      peaks.places[position] =
-          place_in_body<dim>(grid, cell, points[i % n_points], load_case % grid.n_sectors);
+  const int n_points = static_cast<int>(points.size());
+  for (int j = 0; j < by_case.columns(); ++j) {
+    const int position = j / grid.n_sectors;
+    for (int q = 0; q < n_points; ++q) {
+      const int i = j * n_points + q;
+      if (squares[i] > peaks.von_mises[position]) {
+        peaks.von_mises[position] = squares[i];
+        peaks.places[position] = place_in_body<dim>(grid, cell, points[q], j % grid.n_sectors);
+      }
+      peaks.principal[position] = larger_squared_principal<dim>(
+          peaks.principal[position], by_case.column(j) + q * n_strains<dim>, axial_strains[i]);
     }
-    Voigt<dim> strain;
-    for (int k = 0; k < n_strains<dim>; ++k) strain[k] = strains(i, k);
-    peaks.principal[position] =
-        larger_squared_principal<dim>(peaks.principal[position], strain, axial_strains[i]);
   }
 }
 
