@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/takes_any_case.h"
 #include "wheelwright/case/case_key.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/key_value.h"
@@ -19,6 +20,8 @@
 
 namespace wheelwright {
 namespace {
+
+using testing::TakesAnyCase;
 
 // Structs that differ from one in a single key, by the kinds of fields.
 
@@ -199,30 +202,6 @@ std::vector<std::pair<std::string, Load>> loads_with_one_value() {
   }
   return loads;
 }
-
-/// A run that takes every case.
-class TakesAnyCase : public RunControl {
- public:
-  explicit TakesAnyCase(Case c) : case_(std::move(c)) {}
-  const Case& current_case() const override { return case_; }
-  int iteration() const override { return 0; }
-  void save() override {}
-  void stop() override {}
-  std::optional<Refusal> pause(int) override { return {}; }
-  std::optional<Refusal> continue_run() override { return {}; }
-  std::optional<Refusal> change_case(const Case& changed, const std::string&) override {
-    case_ = changed;
-    return {};
-  }
-  std::vector<Point> hole_at(const Point&) const override { return {}; }
-  std::optional<Refusal> draw(std::span<const Stroke>, const std::string&) override { return {}; }
-  std::optional<Refusal> take_shape(const std::filesystem::path&, const std::string&) override { return {}; }
-  std::optional<Refusal> reset() override { return {}; }
-  Expected<std::string, Refusal> undo() override { return Refusal{""}; }
-
- private:
-  Case case_;
-};
 
 TEST(KeyRoundTrip, EveryValueOfALoadIsInTheLogOfCommands) {
   for (const auto& [name, load] : loads_with_one_value()) {

@@ -136,7 +136,7 @@ test("remarks are counted in the answer about trust", () => {
   assert.deepEqual(numbersIn(answerTo({ ...answered, flags: ["a", "b"] }, "trust")), [2]);
 });
 
-test("walls, edges and mass are told only if they are known", () => {
+test("walls, edges and mass are shown only if they are known", () => {
   assert.equal(answerTo(answered, "wall"), undefined);
   assert.equal(answerTo(answered, "edges"), undefined);
   const after = { ...wheel, mass_kg: 7.5, minimum_wall_m: 4e-3, roughness_turns: 0.2, internal_corner_radius_m: 1e-3 };

@@ -23,7 +23,7 @@ void limit_threads(int n_threads) {
   static_cast<void>(limit);
 }
 
-/// What to do with a file whose name says that it is no case; empty for others.
+/// Tells what to do with a file whose extension is that of a drawing or a saved shape; empty for others.
 std::string why_no_case(const std::filesystem::path& file) {
   const std::string extension = file.extension().string(), name = file.string();
   if (extension == std::filesystem::path(saved_shape_file).extension())

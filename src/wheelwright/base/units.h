@@ -62,7 +62,7 @@ constexpr bool is_per_width(UnitKind kind) {
          kind != UnitKind::turns;
 }
 
-/// What the keys of numbers of this kind on the whole width end with, e.g. "N_per_m"; empty for ratios.
+/// The ending of keys of numbers of this kind on the whole width, e.g. "N_per_m"; empty for ratios.
 /// Energies are those of one metre of width in 2D.
 constexpr const char* unit_in_key(UnitKind kind, int dimension) {
   switch (kind) {

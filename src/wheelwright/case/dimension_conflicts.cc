@@ -31,7 +31,7 @@ void check_plane_wheel(const SingleLoad& single, Conflicts& found) {
                        "use dimension = 3, or [[holes.ring]]"});
 }
 
-/// What a wheel in 3D does not support.
+/// Finds keys that wheels in 3D do not support.
 void check_solid_wheel(const SingleLoad& single, Conflicts& found) {
   const Case& c = single.c;
   if (c.material.plane == Plane::stress)

@@ -296,7 +296,8 @@ std::string reference_text(const SectionArray<Struct>& section) {
 /// What a key of quantities accepts.
 std::string quantities_table() {
   std::string result =
-      "\n## Quantities\n\nWhat a case can minimize, bound and expect, with the units of history.csv.\n\n"
+      "\n## Quantities\n\nA case can minimize, bound and expect these quantities; the units are those of "
+      "history.csv.\n\n"
       "| quantity | unit in 2D | unit in 3D | meaning |\n|---|---|---|---|\n";
   for (const Quantity& quantity : Quantities())
     result += fmt::format("| `{}` | {} | {} | {}{} |\n", name(quantity), unit<2>(kind(quantity)),
