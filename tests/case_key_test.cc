@@ -48,7 +48,8 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
   const auto& [modulus, ratio, plane, density] = m;
   expect_keys(m, modulus, ratio, plane, density);
   const Load l;
-  const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, positions, cases] = l;
+  const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, positions, own, cases] =
+      l;
   expect_keys(l, force, travel, along, lateral, camber, torque, body, pressure, speed, positions);
   const Contact t;
   const auto& [with, method, theta, gamma_0, friction, points] = t;
@@ -80,7 +81,7 @@ TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
 
 TEST(CaseKey, EveryMemberOfAnArrayHasAKey) {
   const CaseLoad l;
-  const auto& [name, weight, force, travel, along, torque, body, pressure, speed] = l;
+  const auto& [name, weight, force, travel, along, torque, body, pressure, speed, own] = l;
   expect_keys(l, name, weight, force, travel, along, torque, body, pressure, speed);
   const Constraint b;
   const auto& [bounded, at_least, at_most, equals, over, load_case] = b;
@@ -109,6 +110,33 @@ TEST(CaseKey, EveryMemberOfAShapeHasAKey) {
   const FileShape f;
   const auto& [file_order, file_as, path, unit, axle, copies, turn, checksum, drawing] = f;
   expect_keys(f, file_as, path, unit, axle, copies, turn, checksum);
+  const PictureShape p;
+  const auto& [picture_order, picture_as, file, layout, width, threshold, parts, turned, digest, picture] = p;
+  expect_keys(p, picture_as, file, layout, width, threshold, parts, turned, digest);
+  const SavedShape v;
+  const auto& [from, saved_digest, saved] = v;
+  expect_keys(v, from, saved_digest);
+}
+
+TEST(CaseKey, EveryMemberOfADrawnShapeHasAKey) {
+  const CircleShape c;
+  const auto& [circle_order, circle_as, circles, circle_center, circle_radius, circle_phase] = c;
+  expect_keys(c, circle_as, circles, circle_center, circle_radius, circle_phase);
+  const EllipseShape e;
+  const auto& [ellipse_order, ellipse_as, ellipses, center, length, width, angle, phase] = e;
+  expect_keys(e, ellipse_as, ellipses, center, length, width, angle, phase);
+  const SlotShape s;
+  const auto& [slot_order, slot_as, slots, slot_center, slot_length, slot_width, slot_angle, slot_phase] = s;
+  expect_keys(s, slot_as, slots, slot_center, slot_length, slot_width, slot_angle, slot_phase);
+  const PolygonShape p;
+  const auto& [polygon_order, polygon_as, polygons, points, turned] = p;
+  expect_keys(p, polygon_as, polygons, points, turned);
+  const AnnulusShape a;
+  const auto& [annulus_order, annulus_as, inner, outer] = a;
+  expect_keys(a, annulus_as, inner, outer);
+  const ObjectiveTerm t;
+  const auto& [quantity, weight] = t;
+  expect_keys(t, quantity, weight);
 }
 
 TEST(CaseKey, HasThePathOfTheFile) {

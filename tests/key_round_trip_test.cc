@@ -37,14 +37,14 @@ template <class Struct, class Field>
 std::vector<Struct> variations_of(const Struct& s, const Field& field) {
   std::vector<Struct> result;
   const auto add = [&](const auto& value) {
-    if constexpr (requires { field.member; }) result.emplace_back(s).*field.member = value;
+    if constexpr (requires { field.member; }) field.member.in(result.emplace_back(s)) = value;
   };
   if constexpr (std::is_same_v<Field, NumberField<Struct>>) {
-    for (const double x : other_numbers(field.range, s.*field.member, field.factor)) add(x);
+    for (const double x : other_numbers(field.range, field.member.in(s), field.factor)) add(x);
   } else if constexpr (std::is_same_v<Field, OptionalNumberField<Struct>>) {
-    for (const double x : other_numbers(field.range, (s.*field.member).value_or(0), field.factor)) add(x);
+    for (const double x : other_numbers(field.range, field.member.in(s).value_or(0), field.factor)) add(x);
   } else if constexpr (std::is_same_v<Field, IntegerField<Struct>>) {
-    const int now = s.*field.member;
+    const int now = field.member.in(s);
     for (const int n : {now + 1, now - 1, 2 * now, now / 2})
       if (field.range.contains(n) && n != now) add(n);
   } else if constexpr (std::is_same_v<Field, OptionalIntegerField<Struct>>) {
@@ -55,11 +55,11 @@ std::vector<Struct> variations_of(const Struct& s, const Field& field) {
                        std::is_same_v<Field, OptionalPointField<Struct>>) {
     for (const double x : {0.28, 3.0}) add(std::array<double, 2>{x, 1.0 / 30});
   } else if constexpr (std::is_same_v<Field, PointsField<Struct>>) {
-    add(s.*field.member);
-    (result[0].*field.member)[1][0] += 1e-3;
+    add(field.member.in(s));
+    field.member.in(result[0])[1][0] += 1e-3;
   } else if constexpr (std::is_same_v<Field, QuantityField<Struct>>) {
     for (const Quantity& quantity : Quantities())
-      if (quantity != s.*field.member) add(quantity);
+      if (quantity != field.member.in(s)) add(quantity);
   } else {
     for (int k = 0; k < static_cast<int>(field.words.size()); ++k)
       if (k != field.get(s)) field.set(result.emplace_back(s), k);

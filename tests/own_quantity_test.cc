@@ -70,7 +70,7 @@ at_most = "900 mm"
 )";
 
 Case case_of(const std::string& text, const Quantities& quantities = with_outer_edges()) {
-  const auto read = parse_case(text, "case.toml", quantities);
+  const auto read = parse_case(text, "case.toml", {quantities});
   for (const auto& problem : read.problems) ADD_FAILURE() << problem.text();
   return *read.value;
 }
@@ -127,7 +127,7 @@ TEST(OwnQuantities, OfOneDimensionAreRefusedInTheOther) {
     std::string text =
         small_case(1, fmt::format("[[constraint]]\nquantity = \"{}\"\nat_most = 1\n", quantity));
     text.insert(text.find("sectors"), fmt::format("dimension = {}\n", dimension));
-    return parse_case(text, "case.toml", quantities).value.has_value();
+    return parse_case(text, "case.toml", {quantities}).value.has_value();
   };
   EXPECT_TRUE(is_accepted(2, "doubled_travel"));
   EXPECT_TRUE(is_accepted(3, "travel"));
@@ -184,7 +184,7 @@ at_most = 1
 
 TEST(OwnQuantities, AreTermsOnceAndWithOneWeight) {
   const auto is_accepted = [](const std::string& more) {
-    return parse_case(small_case(1, more), "case.toml", with_outer_edges()).value.has_value();
+    return parse_case(small_case(1, more), "case.toml", {with_outer_edges()}).value.has_value();
   };
   const auto term = [](const std::string& quantity) {
     return fmt::format("[[objective.term]]\nquantity = \"{}\"\nweight = 1\n", quantity);

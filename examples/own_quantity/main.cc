@@ -46,7 +46,7 @@ Quantities with_bulk_energy() {
 int main(int count, char** arguments) {
   restart_with_blas_settings(arguments);
   if (count < 3) return 2;
-  const CaseResult wheel = read_case(arguments[1], with_bulk_energy());
+  const CaseResult wheel = read_case(arguments[1], {.quantities = with_bulk_energy()});
   for (const Diagnostic& problem : wheel.problems) std::fprintf(stderr, "%s\n", problem.text().c_str());
   if (!wheel.value) return 2;
 

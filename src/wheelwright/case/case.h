@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wheelwright/cad/drawing/fill.h"
+#include "wheelwright/case/own_load.h"
 #include "wheelwright/mechanics/elasticity/contact_form.h"
 #include "wheelwright/mechanics/elasticity/dual_norm.h"
 #include "wheelwright/mechanics/elasticity/ghost_penalty.h"
@@ -37,12 +38,13 @@ struct Wheel {
 
 /// One of several loads: the keys of the section [load] that it changes.
 struct CaseLoad {
-  std::string name;
-  double weight = 1;                    ///< of its terms in the objective
-  std::optional<double> force, travel;  ///< at most one of them
-  std::optional<double> horizontal_force, torque;
-  std::optional<std::array<double, 2>> body_force;
-  std::optional<double> hole_pressure, speed;
+  std::string name = {};
+  double weight = 1;                              ///< of its terms in the objective
+  std::optional<double> force = {}, travel = {};  ///< at most one of them
+  std::optional<double> horizontal_force = {}, torque = {};
+  std::optional<std::array<double, 2>> body_force = {};
+  std::optional<double> hole_pressure = {}, speed = {};
+  std::vector<OwnValue<std::optional<double>>> own = {};  ///< empty, or in the order of Load::own
   bool operator==(const CaseLoad&) const = default;
 };
 
@@ -50,15 +52,16 @@ struct Load {
   double force = 300 * 9.81;  ///< on the whole width [N]
   std::optional<double>
       travel;  ///< prescribed travel of the rim towards the ground [m]; if given, the force is a result
-  double horizontal_force = 0;         ///< on the rim, towards larger azimuth, on the whole width [N]
-  double lateral_force = 0;            ///< on the rim, towards larger z; in 3D [N]
-  double camber = 0;                   ///< the side at larger z nearer to the ground; in 3D [rad]
-  double torque = 0;                   ///< on the rim, towards larger azimuth, on the whole width [N m]
-  std::array<double, 2> body_force{};  ///< along the ground towards larger azimuth, and down [N/m^3]
-  double hole_pressure = 0;            ///< in the holes [Pa]
-  double speed = 0;                    ///< of the axle along the ground, for the centrifugal load [m/s]
-  int positions = 8;                   ///< N_d, load positions per sector
-  std::vector<CaseLoad> cases = {};    ///< empty: only this load
+  double horizontal_force = 0;             ///< on the rim, towards larger azimuth, on the whole width [N]
+  double lateral_force = 0;                ///< on the rim, towards larger z; in 3D [N]
+  double camber = 0;                       ///< the side at larger z nearer to the ground; in 3D [rad]
+  double torque = 0;                       ///< on the rim, towards larger azimuth, on the whole width [N m]
+  std::array<double, 2> body_force{};      ///< along the ground towards larger azimuth, and down [N/m^3]
+  double hole_pressure = 0;                ///< in the holes [Pa]
+  double speed = 0;                        ///< of the axle along the ground, for the centrifugal load [m/s]
+  int positions = 8;                       ///< N_d, load positions per sector
+  std::vector<OwnValue<double>> own = {};  ///< of the keys that a program adds
+  std::vector<CaseLoad> cases = {};        ///< empty: only this load
   bool operator==(const Load&) const = default;
 };
 
@@ -389,6 +392,13 @@ struct Expectation {
   bool operator==(const Expectation&) const = default;
 };
 
+/// The words that a case can have: the built-in ones and those that a program adds.
+struct Vocabulary {
+  Quantities quantities = {};
+  OwnLoadKeys load_keys = {};
+  bool operator==(const Vocabulary&) const = default;
+};
+
 struct Case {
   std::string title;
   Wheel wheel;
@@ -406,7 +416,7 @@ struct Case {
   Optimizer optimizer;
   Output output;
   std::vector<Expectation> expectations;
-  Quantities quantities;  ///< that it can name
+  Vocabulary vocabulary;
   bool operator==(const Case&) const = default;
 };
 

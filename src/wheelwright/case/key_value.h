@@ -29,7 +29,7 @@ void visit_value(const Key<Struct>& key, SomeStruct& s, Visitor&& visit) {
                       std::is_same_v<Field, OptionalIntegerField<Struct>> ||
                       std::is_same_v<Field, PointField<Struct>> ||
                       std::is_same_v<Field, OptionalPointField<Struct>>)
-          visit(s.*field.member);
+          visit(field.member.in(s));
       },
       key.field);
 }
@@ -71,15 +71,17 @@ template <class Struct>
 void reset_alternatives(Struct& s, const std::vector<Key<Struct>>& keys, const Key<Struct>& given) {
   for (const Key<Struct>& key : keys) {
     if (place(key, s) == place(given, s) || !are_alternatives(key, given)) continue;
-    if (const auto* field = std::get_if<OptionalNumberField<Struct>>(&key.field)) (s.*field->member).reset();
+    if (const auto* field = std::get_if<OptionalNumberField<Struct>>(&key.field)) field->member.in(s).reset();
   }
 }
 
 /// Whether a later alternative of the key has a value, and so is in force.
 template <class Struct>
 bool is_superseded(const std::vector<Key<Struct>>& keys, const Key<Struct>& key, const Struct& s) {
-  return std::any_of(keys.begin(), keys.end(), [&](const Key<Struct>& other) {
-    return &other > &key && are_alternatives(other, key) && value(other, s);
+  auto later = std::ranges::find(keys, key.name, &Key<Struct>::name);
+  if (later != keys.end()) ++later;
+  return std::any_of(later, keys.end(), [&](const Key<Struct>& other) {
+    return are_alternatives(other, key) && value(other, s);
   });
 }
 

@@ -1,25 +1,11 @@
 #include "wheelwright/case/keys.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "wheelwright/base/text.h"
-#include "wheelwright/case/number_text.h"
 
 namespace wheelwright {
-
-bool Range::contains(double value) const {
-  return std::isfinite(value) && (low_end == End::closed ? value >= low : value > low) &&
-         (high_end == End::closed ? value <= high : value < high);
-}
-
-std::string Range::text() const {
-  return fmt::format("{} {} value {} {}", number_text(low), low_end == End::closed ? "<=" : "<",
-                     high_end == End::closed ? "<=" : "<", number_text(high));
-}
 
 bool keeps(TextRule rule, const std::string& text) {
   if (rule == TextRule::any) return true;

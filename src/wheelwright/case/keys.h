@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <limits>
 #include <optional>
 #include <string>
@@ -9,35 +10,48 @@
 #include <vector>
 
 #include "wheelwright/case/case.h"
+#include "wheelwright/case/range.h"
 
 namespace wheelwright {
 
 // The declaration of the case file. Reading, checking, the template, the reference page and the resolved case
 // all derive from it. A key binds a name to a field of its section's struct.
 
-/// The values that a key accepts, in the unit of the case file.
-struct Range {
-  enum class End { open, closed };
+/// Where a struct has the value of a key: in a member, or among the values of the keys that a program adds.
+template <class Struct, class Value>
+class Place {
+ public:
+  explicit(false) constexpr Place(Value Struct::*member) : member_(member) {}
+  /// Value i of `Struct::own`.
+  explicit constexpr Place(std::size_t i) : own_(i) {}
+  bool operator==(const Place&) const = default;
 
-  double low, high;
-  End low_end = End::closed, high_end = End::closed;
+  /// Zero or absent if the struct has no such own value.
+  const Value& in(const Struct& s) const {
+    static const Value none{};
+    if constexpr (has_own_values)
+      if (!member_) return own_ < s.own.size() ? s.own[own_].value : none;
+    return s.*member_;
+  }
+  /// Throws std::out_of_range if the struct has no such own value.
+  Value& in(Struct& s) const {
+    if constexpr (has_own_values)
+      if (!member_) return s.own.at(own_).value;
+    return s.*member_;
+  }
 
-  /// False for NaN and infinity.
-  bool contains(double value) const;
-  /// E.g. "0 < value <= 20".
-  std::string text() const;
+ private:
+  static constexpr bool has_own_values = requires(Struct s) {
+    { s.own[0].value } -> std::same_as<Value&>;
+  };
+
+  Value Struct::*member_ = nullptr;
+  std::size_t own_ = 0;
 };
-
-constexpr Range any_number{-1e9, 1e9};
-constexpr Range between(double low, double high) { return {low, high}; }
-constexpr Range above(double low, double high) { return {low, high, Range::End::open}; }
-constexpr Range at_least_and_below(double low, double high) {
-  return {.low = low, .high = high, .low_end = Range::End::closed, .high_end = Range::End::open};
-}
 
 template <class Struct>
 struct NumberField {
-  double Struct::*member;
+  Place<Struct, double> member;
   Range range;
   double factor = 1;  ///< member = factor * value in the file
 };
@@ -45,7 +59,7 @@ struct NumberField {
 /// A number whose default depends on other keys.
 template <class Struct>
 struct OptionalNumberField {
-  std::optional<double> Struct::*member;
+  Place<Struct, std::optional<double>> member;
   Range range;
   std::string_view default_text;
   double factor = 1;
@@ -53,7 +67,7 @@ struct OptionalNumberField {
 
 template <class Struct>
 struct IntegerField {
-  int Struct::*member;
+  Place<Struct, int> member;
   Range range;
   std::string_view default_text = {};  ///< if an absent key does not simply mean the member's default
 };
@@ -61,7 +75,7 @@ struct IntegerField {
 /// A whole number whose default is described by a text, or has its own word.
 template <class Struct>
 struct OptionalIntegerField {
-  std::optional<int> Struct::*member;
+  Place<Struct, std::optional<int>> member;
   Range range;
   std::string_view default_text;
   std::string_view default_word = {};  ///< e.g. auto; empty: the default cannot be written explicitly
@@ -79,21 +93,21 @@ std::string_view rule_text(TextRule rule);
 
 template <class Struct>
 struct TextField {
-  std::string Struct::*member;
+  Place<Struct, std::string> member;
   std::string_view default_text;  ///< meaning of an absent key, if not the empty text
   TextRule rule = TextRule::any;
 };
 
 template <class Struct>
 struct PointField {
-  std::array<double, 2> Struct::*member;
+  Place<Struct, std::array<double, 2>> member;
   Range range;
 };
 
 /// A point whose default is described by a text.
 template <class Struct>
 struct OptionalPointField {
-  std::optional<std::array<double, 2>> Struct::*member;
+  Place<Struct, std::optional<std::array<double, 2>>> member;
   Range range;
   std::string_view default_text;
 };
@@ -101,7 +115,7 @@ struct OptionalPointField {
 /// A list of at least three points.
 template <class Struct>
 struct PointsField {
-  std::vector<std::array<double, 2>> Struct::*member;
+  Place<Struct, std::vector<std::array<double, 2>>> member;
   Range range;
 };
 /// The shortest and the longest list.
@@ -136,7 +150,7 @@ auto choice(std::vector<std::string_view> words) {
 /// The name of one of the case's quantities.
 template <class Struct>
 struct QuantityField {
-  Quantity Struct::*member;
+  Place<Struct, Quantity> member;
 
   /// The names of the built-in ones, which every case has.
   static std::vector<std::string_view> built_in_words() { return Quantities().names(); }
@@ -181,6 +195,7 @@ struct SectionArray {
   std::vector<Struct>& (*in)(Case&);
   Struct example;
   std::vector<Key<Struct>> keys;
+  Struct blank = {};  ///< a table without keys
 
   std::string path() const {
     return parent.empty() ? std::string(name) : std::string(parent) + "." + std::string(name);
@@ -193,6 +208,9 @@ const Section<Wheel>& wheel_section();
 const Section<Material>& material_section();
 const Section<Load>& load_section();
 const SectionArray<CaseLoad>& load_case_sections();
+/// The same with the own keys of this load.
+Section<Load> load_section(const Load& load);
+SectionArray<CaseLoad> load_case_sections(const Load& load);
 const Section<Contact>& contact_section();
 const SectionArray<HoleRing>& ring_sections();
 const SectionArray<HoleCircle>& circle_sections();
@@ -256,6 +274,20 @@ void for_each_section(Visitor&& visit) {
   visit(expectation_sections());
 }
 
+/// The same with the sections as this case has them: those of loads with the keys that a program has added.
+template <class Visitor>
+void for_each_section_of(const Case& c, Visitor&& visit) {
+  for_each_section([&](const auto& section) {
+    using Of = std::decay_t<decltype(section)>;
+    if constexpr (std::same_as<Of, Section<Load>>)
+      visit(load_section(c.load));
+    else if constexpr (std::same_as<Of, SectionArray<CaseLoad>>)
+      visit(load_case_sections(c.load));
+    else
+      visit(section);
+  });
+}
+
 /// The key with that name, or null.
 template <class Struct>
 const Key<Struct>* find_key(const std::vector<Key<Struct>>& keys, std::string_view name) {
@@ -269,8 +301,8 @@ template <class Struct>
 const void* place(const Key<Struct>& key, const Struct& s) {
   return std::visit(
       [&](const auto& field) -> const void* {
-        if constexpr (requires { s.*field.member; })
-          return &(s.*field.member);
+        if constexpr (requires { field.member; })
+          return &field.member.in(s);
         else
           return field.place(s);
       },

@@ -68,28 +68,30 @@ const Section<Load>& load_section() {
 
 namespace {
 
+constexpr std::string_view unchanged = "that of [load]";
+
 /// The keys of [load] that set `of_section`, for load cases, where they set `of_case`.
 template <class Of, class Value>
 void add_changeable(std::vector<Key<CaseLoad>>& keys, Of Load::*of_section,
                     std::optional<Value> CaseLoad::*of_case) {
-  constexpr std::string_view default_text = "that of [load]";
   const Load sample;
   for (const Key<Load>& key : load_section().keys) {
     if (place(key, sample) != &(sample.*of_section)) continue;
-    Key<CaseLoad> in_case{.name = key.name,
-                          .unit = key.unit,
-                          .field = TextField<CaseLoad>{},
-                          .meaning = key.meaning,
-                          .instead_of = key.instead_of};
     std::visit(
         [&](const auto& field) {
+          const auto add = [&](auto field_of_case) {
+            keys.push_back({.name = key.name,
+                            .unit = key.unit,
+                            .field = std::move(field_of_case),
+                            .meaning = key.meaning,
+                            .instead_of = key.instead_of});
+          };
           if constexpr (std::is_same_v<Value, double> && requires { field.factor; })
-            in_case.field = OptionalNumberField<CaseLoad>{of_case, field.range, default_text, field.factor};
+            add(OptionalNumberField<CaseLoad>{of_case, field.range, unchanged, field.factor});
           else if constexpr (!std::is_same_v<Value, double> && requires { field.range; })
-            in_case.field = OptionalPointField<CaseLoad>{of_case, field.range, default_text};
+            add(OptionalPointField<CaseLoad>{of_case, field.range, unchanged});
         },
         key.field);
-    keys.push_back(std::move(in_case));
   }
 }
 
@@ -133,6 +135,33 @@ const SectionArray<CaseLoad>& load_case_sections() {
       .in = [](Case& c) -> std::vector<CaseLoad>& { return c.load.cases; },
       .example = example_load_case(),
       .keys = load_case_keys()};
+  return sections;
+}
+
+Section<Load> load_section(const Load& load) {
+  Section<Load> section = load_section();
+  for (std::size_t i = 0; i < load.own.size(); ++i) {
+    const OwnLoadKey& key = *load.own[i].key;
+    section.keys.push_back({.name = key.name,
+                            .unit = key.unit,
+                            .field = NumberField<Load>{Place<Load, double>(i), key.range, key.factor},
+                            .meaning = key.meaning});
+  }
+  return section;
+}
+
+SectionArray<CaseLoad> load_case_sections(const Load& load) {
+  using OfCase = Place<CaseLoad, std::optional<double>>;
+  SectionArray<CaseLoad> sections = load_case_sections();
+  sections.blank.own = no_changes(load.own);
+  for (std::size_t i = 0; i < load.own.size(); ++i) {
+    const OwnLoadKey& key = *load.own[i].key;
+    sections.keys.push_back(
+        {.name = key.name,
+         .unit = key.unit,
+         .field = OptionalNumberField<CaseLoad>{OfCase(i), key.range, unchanged, key.factor},
+         .meaning = key.meaning});
+  }
   return sections;
 }
 

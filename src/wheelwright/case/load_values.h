@@ -20,11 +20,15 @@ bool is_load_of_a_case(const Load& section, const Load& load);
 /// The names of these values.
 std::vector<std::string_view> shared_load_keys();
 
+/// Whether two loads have values of the same own keys.
+bool have_same_keys(const Load& a, const Load& b);
+
 /// The load case changed to have another load under the section `load`.
 CaseLoad changed_load_case(CaseLoad load_case, const Load& section, const Load& load);
 
 /// A key for every value of a load: of those that set the same member, the one that a resolved case has.
-std::vector<const Key<Load>*> load_values();
+/// Their texts live as long as the load's own keys.
+std::vector<Key<Load>> load_values(const Load& load);
 
 /// The values in force that are not 0, in the units of the case file: "force 300 N, torque 12 N m".
 std::string load_text(const Load& load);

@@ -48,7 +48,7 @@ struct Reading {
   std::set<std::string> faulty;          ///< paths of keys whose value could not be used
   std::vector<Diagnostic> problems;
   std::vector<std::pair<int, int>> shape_places;  ///< line and column of each shape
-  Quantities quantities;
+  Vocabulary vocabulary;
 };
 
 struct Complaint {
@@ -174,7 +174,7 @@ requires std::same_as<Field, NumberField<Struct>> || std::same_as<Field, Optiona
                                         Struct& out) {
   double value = 0;
   auto complaint = read_number(node, key.unit, field.range, value);
-  if (!complaint) out.*field.member = value * field.factor;
+  if (!complaint) field.member.in(out) = value * field.factor;
   return complaint;
 }
 
@@ -184,13 +184,13 @@ requires std::same_as<Field, IntegerField<Struct>> || std::same_as<Field, Option
                                         Struct& out) {
   if constexpr (requires { field.default_word; })
     if (!field.default_word.empty() && node.value<std::string>() == field.default_word) {
-      out.*field.member = std::nullopt;
+      field.member.in(out) = std::nullopt;
       return {};
     }
   if (!node.is_integer()) return wrong_type("a whole number", "write it without quotes or decimal point");
   double value = 0;
   auto complaint = read_number(node, key.unit, field.range, value);
-  if (!complaint) out.*field.member = static_cast<int>(value);
+  if (!complaint) field.member.in(out) = static_cast<int>(value);
   return complaint;
 }
 
@@ -201,7 +201,7 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
   if (!value) return wrong_type("text", "put it in quotes");
   if (!keeps(field.rule, *value))
     return Complaint{Kind::out_of_range, fmt::format("must be {}", rule_text(field.rule)), ""};
-  out.*field.member = *value;
+  field.member.in(out) = *value;
   return {};
 }
 
@@ -217,7 +217,7 @@ std::optional<Complaint> read_point(const toml::node& node, std::string_view uni
 template <class Struct>
 std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
                                     const PointField<Struct>& field, Struct& out) {
-  return read_point(node, key.unit, field.range, out.*field.member);
+  return read_point(node, key.unit, field.range, field.member.in(out));
 }
 
 template <class Struct>
@@ -225,7 +225,7 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& k
                                     const OptionalPointField<Struct>& field, Struct& out) {
   std::array<double, 2> point{};
   auto complaint = read_point(node, key.unit, field.range, point);
-  if (!complaint) out.*field.member = point;
+  if (!complaint) field.member.in(out) = point;
   return complaint;
 }
 
@@ -242,7 +242,7 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& k
     return Complaint{
         Kind::out_of_range,
         fmt::format("has {} points; {} to {} are accepted", array->size(), fewest_points, most_points), ""};
-  auto& points = out.*field.member;
+  auto& points = field.member.in(out);
   points.assign(array->size(), {});
   for (std::size_t i = 0; i < points.size(); ++i)
     if (auto complaint = read_point((*array)[i], key.unit, field.range, points[i])) return complaint;
@@ -276,7 +276,7 @@ std::optional<Complaint> read_quantity(const toml::node& node, const Quantities&
                                        const QuantityField<Struct>& field, Struct& out) {
   const auto index = read_word(node, quantities.names());
   if (!index) return index.failure();
-  out.*field.member = quantities.begin()[static_cast<std::ptrdiff_t>(*index)];
+  field.member.in(out) = quantities.begin()[static_cast<std::ptrdiff_t>(*index)];
   return {};
 }
 
@@ -287,7 +287,7 @@ std::optional<Complaint> read_field_of(const Reading& reading, const toml::node&
   return std::visit(
       [&]<class Field>(const Field& field) {
         if constexpr (std::same_as<Field, QuantityField<Struct>>)
-          return read_quantity(node, reading.quantities, field, out);
+          return read_quantity(node, reading.vocabulary.quantities, field, out);
         else
           return read_field(node, key, field, out);
       },
@@ -428,7 +428,7 @@ void read_section(Reading& reading, const toml::table& root, const SectionArray<
   }
   auto& list = section.in(out);
   for (const toml::node& element : *array) {
-    list.emplace_back();
+    list.push_back(section.blank);
     if constexpr (requires { list.back().order; }) {
       reading.shape_places.push_back(node_place(element));
       list.back().order = static_cast<int>(reading.shape_places.size());
@@ -489,9 +489,10 @@ void put_shapes_in_order(const std::vector<std::pair<int, int>>& places, Case& c
 
 Case read_root(Reading& reading, const toml::table& root) {
   Case result;
-  result.quantities = reading.quantities;
+  result.vocabulary = reading.vocabulary;
+  result.load.own = reading.vocabulary.load_keys.usual_values();
   read_parent(reading, root, ring_sections().parent, result.holes);
-  for_each_section([&](const auto& section) { read_section(reading, root, section, result); });
+  for_each_section_of(result, [&](const auto& section) { read_section(reading, root, section, result); });
   read_quantities(reading, root, constraint_sections(), result);
   read_quantities(reading, root, expectation_sections(), result);
   put_shapes_in_order(reading.shape_places, result);
@@ -610,13 +611,13 @@ std::string default_folder(const std::filesystem::path& file) {
   return "runs/" + (name == "." || name == ".." ? "case" : name);
 }
 
-CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, const Quantities& quantities) {
+CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, const Vocabulary& vocabulary) {
   Reading reading{.file = file.string(),
                   .entries = {},
                   .faulty = {},
                   .problems = {},
                   .shape_places = {},
-                  .quantities = quantities};
+                  .vocabulary = vocabulary};
   std::vector<Diagnostic> syntax;
   for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
   Case result = read_root(reading, toml.root);
@@ -649,7 +650,7 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
 }  // namespace
 
 CaseResult parse_case(std::string_view text, const std::filesystem::path& file,
-                      const Quantities& quantities) {
+                      const Vocabulary& vocabulary) {
   if (const auto encoding = other_encoding(text))
     return failed({.kind = Kind::syntax,
                    .file = file.string(),
@@ -664,10 +665,10 @@ CaseResult parse_case(std::string_view text, const std::filesystem::path& file,
                    .column = exceeded->column,
                    .problem = exceeded->problem,
                    .remedy = "this is not a case file"});
-  return interpret(parse_toml_lines(text), file, quantities);
+  return interpret(parse_toml_lines(text), file, vocabulary);
 }
 
-CaseResult read_case(const std::filesystem::path& file, const Quantities& quantities) {
+CaseResult read_case(const std::filesystem::path& file, const Vocabulary& vocabulary) {
   std::string text(most_case_bytes + 1, '\0');  // one extra byte detects longer files
   std::ifstream in(file, std::ios::binary);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -677,7 +678,7 @@ CaseResult read_case(const std::filesystem::path& file, const Quantities& quanti
                    .problem = "cannot be read",
                    .remedy = "check its name and permissions"});
   text.resize(in.gcount());
-  return parse_case(text, file, quantities);
+  return parse_case(text, file, vocabulary);
 }
 
 }  // namespace wheelwright

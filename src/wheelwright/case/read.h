@@ -19,12 +19,12 @@ struct CaseResult {
   GivenCells given_cells = {};  ///< the other grid sizes follow from the rest of the case
 };
 
-/// Reads and checks a case file, which can name the given quantities.
-CaseResult read_case(const std::filesystem::path& file, const Quantities& quantities = {});
+/// Reads and checks a case file, which can have the words of `vocabulary`.
+CaseResult read_case(const std::filesystem::path& file, const Vocabulary& vocabulary = {});
 
 /// The same for a text; `file` is its name in messages and determines the default of output.folder and the
 /// folder of the drawings.
 CaseResult parse_case(std::string_view text, const std::filesystem::path& file,
-                      const Quantities& quantities = {});
+                      const Vocabulary& vocabulary = {});
 
 }  // namespace wheelwright

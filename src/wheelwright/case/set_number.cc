@@ -20,19 +20,19 @@ namespace {
 template <class Struct, class Field>
 std::optional<std::string> set_field(Struct& out, const Key<Struct>& key, const Field& field, double value) {
   if constexpr (
-      !requires { field.range; } || requires { out.*field.member = std::array<double, 2>{}; } ||
-      requires { (out.*field.member).push_back({}); }) {
+      !requires { field.range; } || requires { field.member.in(out) = std::array<double, 2>{}; } ||
+      requires { field.member.in(out).push_back({}); }) {
     return fmt::format("{} is not a number", key.name);
   } else {
     if (!field.range.contains(value))
       return fmt::format("{} = {} is out of range: {}{}{}", key.name, number_text(value), field.range.text(),
                          key.unit.empty() ? "" : " ", key.unit);
     if constexpr (requires { field.factor; }) {
-      out.*field.member = value * field.factor;
+      field.member.in(out) = value * field.factor;
     } else {
       if (value != std::round(value))
         return fmt::format("{} = {} must be a whole number", key.name, number_text(value));
-      out.*field.member = static_cast<int>(value);
+      field.member.in(out) = static_cast<int>(value);
     }
     return {};
   }
@@ -77,7 +77,7 @@ std::optional<std::optional<std::string>> set_in_table(Struct& out, const std::v
 /// All paths of numbers, for suggestions.
 std::vector<std::string> known_paths(Case& c) {
   std::vector<std::string> paths;
-  for_each_section([&](const auto& section) {
+  for_each_section_of(c, [&](const auto& section) {
     for (const auto& key : section.keys) {
       if constexpr (requires { section.path(); }) {
         for (std::size_t i = 0; i < section.in(c).size(); ++i)
@@ -98,7 +98,7 @@ std::optional<std::string> set_number(Case& c, const std::string& path, double v
   std::optional<std::optional<std::string>> outcome;
   const auto dot = path.rfind('.');
   const std::string table = dot == std::string::npos ? "" : path.substr(0, dot), name = path.substr(dot + 1);
-  for_each_section([&](const auto& section) {
+  for_each_section_of(c, [&](const auto& section) {
     if constexpr (requires { section.path(); }) {
       auto& list = section.in(c);
       for (std::size_t i = 0; i < list.size(); ++i)

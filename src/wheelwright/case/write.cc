@@ -49,49 +49,49 @@ std::string quotient_text(double value, double factor) {
 
 template <class Struct>
 std::string value_text(const NumberField<Struct>& field, const Struct& s) {
-  return quotient_text(s.*field.member, field.factor);
+  return quotient_text(field.member.in(s), field.factor);
 }
 
 template <class Struct>
 std::string value_text(const OptionalNumberField<Struct>& field, const Struct& s) {
-  const auto& value = s.*field.member;
+  const auto& value = field.member.in(s);
   return value ? quotient_text(*value, field.factor) : "";
 }
 
 template <class Struct>
 std::string value_text(const IntegerField<Struct>& field, const Struct& s) {
-  return fmt::format("{}", s.*field.member);
+  return fmt::format("{}", field.member.in(s));
 }
 
 template <class Struct>
 std::string value_text(const OptionalIntegerField<Struct>& field, const Struct& s) {
-  const auto& value = s.*field.member;
+  const auto& value = field.member.in(s);
   if (!value) return field.default_word.empty() ? "" : quoted(field.default_word);
   return fmt::format("{}", *value);
 }
 
 template <class Struct>
 std::string value_text(const TextField<Struct>& field, const Struct& s) {
-  const std::string& value = s.*field.member;
+  const std::string& value = field.member.in(s);
   return value.empty() && !field.default_text.empty() ? "" : quoted(value);
 }
 
 template <class Struct>
 std::string value_text(const PointField<Struct>& field, const Struct& s) {
-  const auto [x, y] = s.*field.member;
+  const auto [x, y] = field.member.in(s);
   return fmt::format("[{}, {}]", number_text(x), number_text(y));
 }
 
 template <class Struct>
 std::string value_text(const OptionalPointField<Struct>& field, const Struct& s) {
-  const auto& point = s.*field.member;
+  const auto& point = field.member.in(s);
   return point ? fmt::format("[{}, {}]", number_text((*point)[0]), number_text((*point)[1])) : "";
 }
 
 template <class Struct>
 std::string value_text(const PointsField<Struct>& field, const Struct& s) {
   std::vector<std::string> points;
-  for (const auto& [x, y] : s.*field.member)
+  for (const auto& [x, y] : field.member.in(s))
     points.push_back(fmt::format("[{}, {}]", number_text(x), number_text(y)));
   return fmt::format("[{}]", fmt::join(points, ", "));
 }
@@ -103,7 +103,7 @@ std::string value_text(const ChoiceField<Struct>& field, const Struct& s) {
 
 template <class Struct>
 std::string value_text(const QuantityField<Struct>& field, const Struct& s) {
-  return quoted(name(s.*field.member));
+  return quoted(name(field.member.in(s)));
 }
 
 template <class Struct>
@@ -311,7 +311,7 @@ std::string quantities_table() {
 std::string to_toml(const Case& c) {
   std::string result;
   bool shapes_are_written = false;
-  for_each_section([&](const auto& section) {
+  for_each_section_of(c, [&](const auto& section) {
     if constexpr (!has_order<std::decay_t<decltype(section)>>) {
       result += resolved_text(section, c);
     } else if (!shapes_are_written) {

@@ -102,14 +102,15 @@ class Command {
 struct CommandKind {
   std::string_view name, meaning;
   /// Makes one from default values, which `fill` may change.
-  Command (*make)(const std::function<void(const CommandFields&)>& fill);
+  std::function<Command(const std::function<void(const CommandFields&)>& fill)> make;
 };
 using CommandKinds = std::vector<CommandKind>;
 
+/// `usual` has the default values.
 template <DeclaredCommand C>
-CommandKind command_kind() {
-  return {C::name, C::meaning, [](const std::function<void(const CommandFields&)>& fill) {
-            C command{};
+CommandKind command_kind(const C& usual = {}) {
+  return {C::name, C::meaning, [usual](const std::function<void(const CommandFields&)>& fill) {
+            C command = usual;
             fill(fields_of(command));
             return Command(std::move(command));
           }};

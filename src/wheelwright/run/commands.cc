@@ -19,19 +19,14 @@ CommandResult changed(RunControl& run, const Case& c, const std::string& what) {
   return what;
 }
 
-template <DeclaredCommand... C>
-CommandKinds kinds_of() {
-  return {command_kind<C>()...};
-}
-
 }  // namespace
 
 CommandFields load_fields(Load& load) {
   CommandFields fields;
-  for (const Key<Load>* key : load_values())
-    visit_value(*key, load, [&](auto& value) {
+  for (const Key<Load>& key : load_values(load))
+    visit_value(key, load, [&](auto& value) {
       if constexpr (requires { CommandField{"", "", &value}; })
-        fields.push_back({json_name(*key), std::string(key->meaning), &value});
+        fields.push_back({json_name(key), std::string(key.meaning), &value});
     });
   return fields;
 }
@@ -43,9 +38,15 @@ CommandFields NewLoad::fields() {
   return fields;
 }
 
-CommandKinds commands_of_every_run() {
-  return kinds_of<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, NewWidths, NewBound,
-                  Paint, MoveHole, FillHole, TakeShape, Reset, Undo>();
+CommandKinds commands_of_every_run(const OwnLoadKeys& own) {
+  NewLoad usual_load;
+  usual_load.load.own = own.usual_values();
+  return {command_kind<Save>(),     command_kind<Stop>(),      command_kind<Pause>(),
+          command_kind<Continue>(), command_kind<Step>(),      command_kind<NewWeights>(),
+          command_kind(usual_load), command_kind<NewVolume>(), command_kind<NewWidths>(),
+          command_kind<NewBound>(), command_kind<Paint>(),     command_kind<MoveHole>(),
+          command_kind<FillHole>(), command_kind<TakeShape>(), command_kind<Reset>(),
+          command_kind<Undo>()};
 }
 
 CommandResult Save::execute(RunControl& run) const {
@@ -90,6 +91,7 @@ CommandResult NewWeights::execute(RunControl& run) const {
 
 CommandResult NewLoad::execute(RunControl& run) const {
   Case c = run.current_case();
+  if (!have_same_keys(c.load, load)) return Refusal{"the load does not have the keys of the case's load"};
   if (!load_case) {
     if (!c.load.cases.empty()) return Refusal{"the case has several loads: say which load case changes"};
     c.load = load;

@@ -169,7 +169,8 @@ struct Undo {
 /// The fields of a load, without its load cases.
 CommandFields load_fields(Load& load);
 
-/// The kinds of commands above. A program adds its own: kinds.push_back(command_kind<ItsCommand>()).
-CommandKinds commands_of_every_run();
+/// The kinds of commands above, with loads that have these own keys. A program adds its own:
+/// kinds.push_back(command_kind<ItsCommand>()).
+CommandKinds commands_of_every_run(const OwnLoadKeys& own = {});
 
 }  // namespace wheelwright

@@ -22,18 +22,13 @@ constexpr std::array<std::pair<const char*, const char*>, 5> peak_columns{{{"pea
                                                                            {"peak_von_mises_position", "deg"},
                                                                            {"largest_strain", "-"}}};
 
-/// The unit of a term; a functional that is not a quantity is an energy.
-template <int dim>
-const char* unit_of(const WeightedFunctional<dim>& term) {
-  return unit<dim>(term.quantity ? kind(*term.quantity) : UnitKind::energy);
-}
-
 template <int dim>
 std::vector<HistoryColumns::Quantity> term_columns(const Study<dim>& study) {
   std::vector<HistoryColumns::Quantity> columns;
   for (const auto& term : study.objective().terms) {
     const std::string name = term.functional->name();
-    columns.push_back(column(name_in_case(name, study.load_cases, term.load_case), unit_of(term)));
+    columns.push_back(
+        column(name_in_case(name, study.load_cases, term.load_case), unit<dim>(kind(term.quantity))));
   }
   return columns;
 }

@@ -32,7 +32,7 @@ template <int dim>
 OwnNumbers<dim> own_numbers(const Case& c, const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
   return [&](const SolvedStates<dim>& states) {
     std::vector<OwnNumber> numbers;
-    for (const Quantity& quantity : c.quantities.own())
+    for (const Quantity& quantity : c.vocabulary.quantities.own())
       numbers.push_back({quantity, own_number(quantity, c, solver, shape, states)});
     return numbers;
   };

@@ -49,7 +49,7 @@ Refusal refusal(const Failure& failure) {
 }
 
 Expected<Case, Refusal> accepted_case(const Case& c, const std::filesystem::path& file) {
-  CaseResult result = parse_case(to_toml(c), file, c.quantities);
+  CaseResult result = parse_case(to_toml(c), file, c.vocabulary);
   if (result.value) return *std::move(result.value);
   std::string reason;
   for (const Diagnostic& problem : result.problems)

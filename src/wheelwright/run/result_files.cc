@@ -74,7 +74,7 @@ void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& sol
   if (run.study.load_cases.size() > 1) make_subfolder(run.folder / "load_cases");
   for (std::size_t k = 1; k < run.study.load_cases.size(); ++k) {
     const auto& [name, model] = run.study.load_cases[k];
-    const auto state = first.under(with_loads_of(first.model(), model), Interrupt());
+    const auto state = first.under(with_loads(first.model(), model), Interrupt());
     if (!state) continue;
     const int worst = worst_position((*state)->strain_energy());
     for_each_position<dim>(solver, **state, [&](int position, const PositionFields<dim>& fields) {

@@ -209,7 +209,7 @@ std::vector<LoadedPositions<dim>> other_loads(const Case& c, const SolvedShape<d
   std::vector<LoadedPositions<dim>> all;
   for (std::size_t k = 1; k < cases.size(); ++k)
     if (const auto state =
-            last.solution->under(with_loads_of(last.solution->model(), cases[k].model), Interrupt()))
+            last.solution->under(with_loads(last.solution->model(), cases[k].model), Interrupt()))
       all.push_back({cases[k].name, shown_wheel<dim>({last.shape, last.solver, state->get()}).positions});
   return all;
 }

@@ -35,17 +35,20 @@ namespace {
 
 /// The loads of a case with only one load.
 template <int dim>
-void set_loads(const Case& c, RollingModel<dim>& model) {
-  model.load = on_model_width<dim>(c.load.force, c);
-  model.horizontal_force = on_model_width<dim>(c.load.horizontal_force, c);
-  model.lateral_force = c.load.lateral_force;
-  model.torque = on_model_width<dim>(c.load.torque, c);
-  model.travel = c.load.travel;
+WheelLoads<dim> applied_loads(const Case& c, RollingModel<dim> wheel) {
+  WheelLoads<dim> loads{.load = on_model_width<dim>(c.load.force, c),
+                        .horizontal_force = on_model_width<dim>(c.load.horizontal_force, c),
+                        .lateral_force = c.load.lateral_force,
+                        .torque = on_model_width<dim>(c.load.torque, c),
+                        .travel = c.load.travel};
   const auto [along_ground, down] = c.load.body_force;
-  model.distributed.body_force[0] = down;
-  model.distributed.body_force[1] = along_ground;
-  model.distributed.hole_pressure = c.load.hole_pressure;
-  model.distributed.angular_speed = c.load.speed / c.wheel.outer_radius;
+  loads.distributed.body_force[0] = down;
+  loads.distributed.body_force[1] = along_ground;
+  loads.distributed.hole_pressure = c.load.hole_pressure;
+  loads.distributed.angular_speed = c.load.speed / c.wheel.outer_radius;
+  wheel.loads() = loads;
+  for (const auto& [key, value] : c.load.own) key->effect.act(value, std::as_const(wheel), loads);
+  return loads;
 }
 
 }  // namespace
@@ -67,7 +70,7 @@ RollingModel<dim> rolling_model(const Case& c) {
   model.tread = {tread_rows(c), tread_levels(c), wants_annulus(c) ? c.grid.degree + 1 : 0};
   model.camber = c.load.camber;
   const std::vector<Case> single = single_load_cases(c);
-  set_loads<dim>(single.front(), model);
+  model.loads() = applied_loads<dim>(single.front(), model);
   model.tread.observes_spin =
       std::ranges::any_of(single, [](const Case& each) { return each.load.speed != 0; });
   model.n_positions = c.load.positions;
@@ -81,7 +84,7 @@ LoadCases<dim> load_cases(const Case& c) {
   RollingModel<dim> model = rolling_model<dim>(c);
   const std::vector<Case> single = single_load_cases(c);
   for (std::size_t k = 0; k < single.size(); ++k) {
-    set_loads<dim>(single[k], model);
+    model.loads() = applied_loads<dim>(single[k], model);
     result.push_back({c.load.cases[k].name, model});
   }
   return result;

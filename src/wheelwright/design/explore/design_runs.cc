@@ -162,7 +162,7 @@ DesignRun run_design(const Design& design, const fs::path& folder, Progression p
   } else {
     return {{}, fault_of_folder(run.failure(), folder)};
   }
-  read_summary(folder, design.source.quantities, result);
+  read_summary(folder, design.source.vocabulary.quantities, result);
   return {result, ""};
 }
 

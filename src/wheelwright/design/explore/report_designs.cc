@@ -39,7 +39,7 @@ std::vector<std::string> load_cases_of(const std::vector<RankedDesign>& designs)
 std::vector<RankedQuantity> own_quantities(const std::vector<RankedDesign>& designs) {
   std::vector<RankedQuantity> own;
   if (!designs.empty())
-    for (const Quantity& quantity : designs.front().design.source.quantities.own())
+    for (const Quantity& quantity : designs.front().design.source.vocabulary.quantities.own())
       own.push_back(ranked(quantity));
   return own;
 }

@@ -35,7 +35,7 @@ GivenCells with_swept(GivenCells given, const std::vector<SweptKey>& keys) {
 /// The case as if read from its own file, or its first problem.
 Expected<Case, SweepProblem> checked(const Case& c, const std::filesystem::path& file,
                                      const std::string& text) {
-  CaseResult result = parse_case(to_toml(c), file, c.quantities);
+  CaseResult result = parse_case(to_toml(c), file, c.vocabulary);
   if (result.value) return *std::move(result.value);
   const Diagnostic& first = result.problems.front();
   return SweepProblem{fmt::format("{}: {}: {}{}{}", text, first.key, first.problem,

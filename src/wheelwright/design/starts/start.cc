@@ -99,7 +99,7 @@ std::optional<double> matching_size(const Case& c, const StartRange& range, cons
 
 /// The first problem of a case; empty if it is valid.
 std::string refusal(const Case& c) {
-  const CaseResult checked = parse_case(to_toml(c), "start.toml", c.quantities);
+  const CaseResult checked = parse_case(to_toml(c), "start.toml", c.vocabulary);
   if (checked.value) return "";
   const Diagnostic& first = checked.problems.front();
   return fmt::format("{}: {}", first.key, first.problem);

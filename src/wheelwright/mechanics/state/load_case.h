@@ -28,15 +28,10 @@ std::string name_in_case(std::string name, const LoadCases<dim>& cases, int load
   return load_case == 0 ? name : std::move(name) + " in " + cases[load_case].name;
 }
 
-/// A model with the loads of another one.
+/// The model under other loads.
 template <int dim>
-RollingModel<dim> with_loads_of(RollingModel<dim> model, const RollingModel<dim>& loads) {
-  model.load = loads.load;
-  model.horizontal_force = loads.horizontal_force;
-  model.lateral_force = loads.lateral_force;
-  model.torque = loads.torque;
-  model.travel = loads.travel;
-  model.distributed = loads.distributed;
+RollingModel<dim> with_loads(RollingModel<dim> model, const WheelLoads<dim>& loads) {
+  model.loads() = loads;
   return model;
 }
 

@@ -42,9 +42,21 @@ struct DistributedLoads {
   }
 };
 
-/// A rolling structure and its load: all but its shape. Forces are per metre of width when dim = 2.
+/// What loads a wheel. Forces are per metre of width when dim = 2.
 template <int dim>
-struct RollingModel {
+struct WheelLoads {
+  double load = 0;              ///< P [N/m when dim = 2, N when dim = 3]
+  double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground
+  double lateral_force =
+      0;              ///< on the rim along the axle, towards larger z; if not 0, it moves; when dim = 3 [N]
+  double torque = 0;  ///< M on the rim about the axle; if not 0, it turns
+  std::optional<double> travel = {};  ///< of the rim towards the ground [m], instead of the load
+  DistributedLoads<dim> distributed = {};
+};
+
+/// A rolling structure and its loads: all but its shape.
+template <int dim>
+struct RollingModel : WheelLoads<dim> {
   PolarGrid<dim> grid;
   int degree = 2;                 ///< of the displacement, 1 or 2
   std::optional<int> cut_points;  ///< Gauss points per direction in cut cells; absent: degree + 2
@@ -54,18 +66,14 @@ struct RollingModel {
   ContactForm contact;
   /// In place of the law of `contact`, whose friction then does not count; null: that law.
   std::shared_ptr<const ContactLaw<dim>> contact_law = {};
-  int contact_points = 5;       ///< Gauss points on each contact face, along the axle at most degree + 1
-  TreadGrid tread;              ///< rows that are condensed once per run, and their refinement
-  double load;                  ///< P [N/m when dim = 2, N when dim = 3]
-  double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground
-  double lateral_force =
-      0;  ///< on the rim along the axle, towards larger z; if not 0, it moves; when dim = 3 [N]
+  int contact_points = 5;  ///< Gauss points on each contact face, along the axle at most degree + 1
+  TreadGrid tread;         ///< rows that are condensed once per run, and their refinement
   double camber =
       0;  ///< by which the wheel leans, its side at larger z closer to the ground; when dim = 3 [rad]
-  double torque = 0;             ///< M on the rim about the axle; if not 0, it turns
-  std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
-  DistributedLoads<dim> distributed;
   int n_positions = 8;  ///< N_d, load positions of one sector
+
+  const WheelLoads<dim>& loads() const { return *this; }
+  WheelLoads<dim>& loads() { return *this; }
 
   int points_in_cut_cells() const { return cut_points.value_or(degree + 2); }
 };

@@ -197,7 +197,7 @@ Trial<dim> Trials<dim>::repaired(const OptimizationState<dim>& state, const Leve
 
 template <int dim>
 Trial<dim> Trials<dim>::without_shape(const OptimizationState<dim>& state, int halvings, double step,
-                                      std::optional<Failure> failure) const {
+                                      const std::optional<Failure>& failure) const {
   return {.iteration = state.iteration + 1,
           .halvings = halvings,
           .step = step,
@@ -206,7 +206,7 @@ Trial<dim> Trials<dim>::without_shape(const OptimizationState<dim>& state, int h
           .shape = state.shape,
           .measure = unknown,
           .verdict = Verdict::failed,
-          .failure = std::move(failure)};
+          .failure = failure};
 }
 
 template <int dim>

@@ -52,7 +52,7 @@ class Trials {
 
   /// Without a shape of its own.
   Trial<dim> without_shape(const OptimizationState<dim>& state, int halvings, double step,
-                           std::optional<Failure> failure) const;
+                           const std::optional<Failure>& failure) const;
 
   FeatureSize widths_after(const OptimizationState<dim>& state) const;
 

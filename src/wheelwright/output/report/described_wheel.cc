@@ -142,7 +142,7 @@ DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelS
     other.others.clear();
     other.load_case = cases[k].name;
     const auto under_load =
-        states ? (*states)->under(with_loads_of((*states)->model(), cases[k].model), Interrupt()) : states;
+        states ? (*states)->under(with_loads((*states)->model(), cases[k].model), Interrupt()) : states;
     other.loaded = loaded_wheel(solver, psi, under_load);
     if (own_numbers) other.own = own_numbers(under_load);
     wheel.others.push_back(std::move(other));

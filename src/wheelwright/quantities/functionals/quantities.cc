@@ -365,7 +365,7 @@ Expected<WeightedFunctional<dim>> functional_of(const Quantity& quantity, Over o
                    fmt::format("{} is not computed in {}D", quantity->name, dim)};
   auto term = maker->make(context);
   if (!term) return term.failure();
-  if (!term->quantity) term->quantity = quantity;
+  if (term->quantity == Quantity()) term->quantity = quantity;
   if (is_each && !has_own_mean)
     term->functional = aggregated<dim>(quantity->name, std::move(term->functional), over);
   return term;

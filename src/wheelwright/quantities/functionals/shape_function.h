@@ -11,8 +11,8 @@ template <int dim>
 struct WeightedFunctional {
   double weight;
   std::shared_ptr<const Functional<dim>> functional;
-  int load_case = 0;                   ///< 0 is the load of the solver's own model
-  std::optional<Quantity> quantity{};  ///< the functional's; absent: an energy
+  int load_case = 0;    ///< 0 is the load of the solver's own model
+  Quantity quantity{};  ///< the functional's, whose unit it has
 };
 
 template <int dim>

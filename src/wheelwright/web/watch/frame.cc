@@ -37,19 +37,19 @@ Json load_cases_json(const Case& c) {
 }
 
 /// The numbers of a load that a page can change, in the units that it displays.
-Json load_keys_json() {
+Json load_keys_json(const Load& load) {
   constexpr double millimetres = 1e3;
   Json keys = Json::array();
-  for (const Key<Load>* key : load_values()) {
-    const auto* number = std::get_if<NumberField<Load>>(&key->field);
-    if (!number && !std::holds_alternative<OptionalNumberField<Load>>(key->field)) continue;
-    const bool is_length = key->unit == "m";
+  for (const Key<Load>& key : load_values(load)) {
+    const auto* number = std::get_if<NumberField<Load>>(&key.field);
+    if (!number && !std::holds_alternative<OptionalNumberField<Load>>(key.field)) continue;
+    const bool is_length = key.unit == "m";
     const double factor = is_length ? millimetres : 1 / (number ? number->factor : 1);
-    std::string words(key->name);
+    std::string words(key.name);
     std::ranges::replace(words, '_', ' ');
-    keys.push_back({{"id", key->name},
-                    {"key", json_name(*key)},
-                    {"text", fmt::format("{} [{}]", words, is_length ? "mm" : key->unit)},
+    keys.push_back({{"id", key.name},
+                    {"key", json_name(key)},
+                    {"text", fmt::format("{} [{}]", words, is_length ? "mm" : key.unit)},
                     {"factor", factor}});
   }
   return keys;
@@ -86,7 +86,7 @@ Json settings_json(const WatchedShape<dim>& shape) {
   const double ring = sector_measure<dim>(shape.psi.lattice.grid());
   return {{"load", Json::parse(load_json(c.load))},
           {"load_cases", load_cases_json(c)},
-          {"load_keys", load_keys_json()},
+          {"load_keys", load_keys_json(c.load)},
           {"weights", weights_json(c.objective)},
           {"volume_target", shape.target_measure / ring},
           {"minimum_wall_m", c.optimizer.minimum_wall.value_or(0)},

@@ -64,7 +64,7 @@ DescribedWheel<dim> WatchedNumbers<dim>::initial_wheel(const BoardView<dim>& vie
       now.solver->states(psi, distinct_positions(*now.solver, *now.load_cases, psi), Interrupt());
   if (states && load_case > 0)
     states =
-        (*states)->under(with_loads_of((*states)->model(), (*now.load_cases)[load_case].model), Interrupt());
+        (*states)->under(with_loads((*states)->model(), (*now.load_cases)[load_case].model), Interrupt());
   auto wheel = described_wheel<dim>(*now.solver, psi, share(psi, material_measure(psi)), states, {},
                                     own_numbers(*now.source, *now.solver, psi));
   if (!now.load_cases->empty()) wheel.load_case = (*now.load_cases)[load_case].name;

@@ -66,8 +66,9 @@ Case watched_case(Case c) {
 }
 
 template <int dim>
-WatchSession<dim>::WatchSession(CommandQueue& commands, OfferedDesigns designs)
+WatchSession<dim>::WatchSession(CommandQueue& commands, OfferedDesigns designs, CommandKinds kinds)
     : designs_(std::move(designs)),
+      kinds_(std::move(kinds)),
       board_(std::make_shared<Board<dim>>()),
       numbers_(std::make_shared<WatchedNumbers<dim>>()),
       commands_(std::make_shared<PageCommands>(commands)) {}
@@ -123,7 +124,7 @@ PageAnswer WatchSession<dim>::frame(const PageRequest& request) const {
 
 template <int dim>
 PageAnswer WatchSession<dim>::command(const PageRequest& request) {
-  const auto parsed = parse_command(request.body);
+  const auto parsed = parse_command(request.body, kinds_);
   if (!parsed) return message(400, false, parsed.failure().reason);
   if (!PageCommands::is_for_pages(*parsed) || parsed->is<TakeShape>())
     return message(400, false, "not a command of a page");

@@ -22,8 +22,9 @@ Case watched_case(Case c);
 template <int dim>
 class WatchSession {
  public:
-  /// The queue must outlive the session.
-  explicit WatchSession(CommandQueue& commands, OfferedDesigns designs = {});
+  /// The queue must outlive the session. Pages can send commands of these kinds.
+  explicit WatchSession(CommandQueue& commands, OfferedDesigns designs = {},
+                        CommandKinds kinds = commands_of_every_run());
 
   /// Connects a run that takes its commands from the queue, before it is executed.
   void watch(Run<dim>& run);
@@ -47,6 +48,7 @@ class WatchSession {
 
   std::filesystem::path folder_;  ///< of the run
   OfferedDesigns designs_;
+  CommandKinds kinds_;
   std::shared_ptr<Board<dim>> board_;
   std::shared_ptr<WatchedNumbers<dim>> numbers_;
   std::shared_ptr<PageCommands> commands_;
