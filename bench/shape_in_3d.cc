@@ -23,7 +23,7 @@
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
 #include "wheelwright/mechanics/rolling/turned_state.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/geometry/mirror.h"
 
 namespace wheelwright::bench {

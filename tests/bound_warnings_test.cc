@@ -1,4 +1,4 @@
-#include "wheelwright/run/bound_warnings.h"
+#include "wheelwright/run/study/bound_warnings.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "wheelwright/run/bounded_functions.h"
+#include "wheelwright/run/study/bounded_functions.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "wheelwright/optimization/optimizer/constraints.h"
-#include "wheelwright/run/case_report.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/case_report.h"
+#include "wheelwright/run/study/study.h"
 
 using namespace wheelwright;
 

@@ -8,7 +8,7 @@
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/quantities/functionals/strain_energy.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

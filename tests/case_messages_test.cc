@@ -8,7 +8,7 @@
 
 #include "wheelwright/case/hole_rings.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/run/case_report.h"
+#include "wheelwright/run/study/case_report.h"
 
 // What a case's problems say, beyond their line and kind, where only the right hint helps.
 

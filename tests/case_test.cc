@@ -29,7 +29,7 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/files/checksum.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

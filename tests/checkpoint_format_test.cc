@@ -6,7 +6,7 @@
 
 #include "tests/checkpoint_sample.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/checkpoints/checkpoint.h"
 
 namespace wheelwright {
 namespace {

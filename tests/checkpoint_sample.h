@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/checkpoints/checkpoint.h"
 
 /// A checkpoint with every part filled, for tests of its format.
 namespace wheelwright::testing {

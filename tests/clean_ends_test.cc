@@ -6,7 +6,7 @@
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/output/report/described_wheel.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/evolution/feature_size.h"
 #include "wheelwright/shape/evolution/medial_balls.h"
 #include "wheelwright/shape/geometry/topology.h"

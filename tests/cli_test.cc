@@ -20,8 +20,8 @@
 #include "wheelwright/app/guarded.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/run/folder_lock.h"
-#include "wheelwright/run/problem_size.h"
+#include "wheelwright/run/checkpoints/folder_lock.h"
+#include "wheelwright/run/study/problem_size.h"
 #include "wheelwright/shape/geometry/topology.h"
 
 namespace wheelwright::testing {

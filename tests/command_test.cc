@@ -6,10 +6,10 @@
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/run/command_log.h"
-#include "wheelwright/run/command_queue.h"
-#include "wheelwright/run/command_reference.h"
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/commands/command_queue.h"
+#include "wheelwright/run/commands/command_reference.h"
+#include "wheelwright/run/observers/command_log.h"
+#include "wheelwright/run/session/run.h"
 
 namespace wheelwright::testing {
 namespace {
@@ -19,7 +19,7 @@ using TheRun = Run<2>;  // a test has a Run() of its own
 
 /// An observer of the test, in no list of the program: what stands in a file of its own otherwise. The one
 /// line that makes it known to a run is the call of Run::add() in RunTest::execute() below; an observer of
-/// every run would be named by one line in make_observers() (run/observers.cc) instead.
+/// every run would be named by one line in make_observers() (run/observers/observers.cc) instead.
 class Recorder : public Observer<2> {
  public:
   struct Record {

@@ -10,7 +10,7 @@
 #include "wheelwright/mechanics/contact/contact_solver.h"
 #include "wheelwright/mechanics/contact/contact_starts.h"
 #include "wheelwright/mechanics/contact/newton_tangent.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

@@ -21,7 +21,7 @@
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shape_symmetry.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright::testing {
 namespace {

@@ -12,8 +12,8 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
-#include "wheelwright/run/predicted_deformation.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/predicted_deformation.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

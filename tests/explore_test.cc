@@ -23,8 +23,8 @@
 #include "wheelwright/design/starts/random.h"
 #include "wheelwright/design/starts/start.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/run/folder_lock.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/checkpoints/folder_lock.h"
+#include "wheelwright/run/study/study.h"
 
 // Many designs of one case: how they are drawn, run, and ranked.
 

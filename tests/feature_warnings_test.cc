@@ -1,4 +1,4 @@
-#include "wheelwright/run/feature_warnings.h"
+#include "wheelwright/run/study/feature_warnings.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@
 #include "wheelwright/output/report/tread_contact.h"
 #include "wheelwright/output/report/vtu.h"
 #include "wheelwright/output/report/vtu_arrays.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/surface/check_surface.h"
 
 namespace wheelwright {

@@ -1,12 +1,12 @@
-#include "wheelwright/run/filled_holes.h"
+#include "wheelwright/run/study/filled_holes.h"
 
 #include <nlohmann/json.hpp>
 
 #include "tests/run_support.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/run/run.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/session/run.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheelwright/run/final_results.h"
+#include "wheelwright/run/results/final_results.h"
 
 #include <nlohmann/json.hpp>
 
@@ -6,8 +6,8 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/output/report/comparison_table.h"
 #include "wheelwright/output/report/gains.h"
-#include "wheelwright/run/expectations.h"
-#include "wheelwright/run/run_report.h"
+#include "wheelwright/run/observers/expectations.h"
+#include "wheelwright/run/observers/run_report.h"
 
 namespace wheelwright::testing {
 namespace {

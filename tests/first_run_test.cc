@@ -12,7 +12,7 @@
 
 #include "tests/run_support.h"
 #include "wheelwright/app/exit_code.h"
-#include "wheelwright/run/stop_text.h"
+#include "wheelwright/run/results/stop_text.h"
 
 // What the program tells on the terminal, by the eyes of somebody who runs it for the first time.
 

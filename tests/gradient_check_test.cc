@@ -1,4 +1,4 @@
-#include "wheelwright/run/gradient_check.h"
+#include "wheelwright/run/study/gradient_check.h"
 
 #include <gtest/gtest.h>
 

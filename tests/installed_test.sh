@@ -6,6 +6,7 @@
 #   outside of the project, examples/optimize_a_wheel, builds by CMake package and by pkg-config, improves a wheel at
 #   constant volume and finds what the installed program finds; that a material law of its own, examples/own_material,
 #   gives what the built-in law gives; that an own command and an own observer, examples/own_command, take part in a run;
+#   that an own key of [load], examples/own_load_key, gives what the built-in key gives, in load cases and after a stop;
 #   that the library shows no names but its own.
 # usage: installed_test.sh all|each-header BUILD_FOLDER COMPILER [FLAG...]
 set -euo pipefail
@@ -157,6 +158,23 @@ for file in history.csv report.html; do
   grep -q '\<bulk_energy \[J/m\].*bounded bulk_energy \[J/m\]' "$folder/own_run/$file" ||
     fail "no columns of the own quantity in $file"
 done
+
+# A program with a key of its own in [load], the slope of a road, which acts as a horizontal force would.
+build_example own_load_key
+# sloping_case ROAD HILL: two load cases with these keys.
+sloping_case() {
+  cat "$folder/case.toml"
+  printf '\n[[load.case]]\nname = "road"\n%s\n[[load.case]]\nname = "hill"\n%s\n' "$1" "$2"
+}
+sed -i 's/^gamma_0 = 1$/gamma_0 = 1\nfriction = 0.9/' "$folder/case.toml"
+sloping_case 'slope = 2' 'slope = -5' >"$folder/sloping.toml"
+# -m g tan(slope) of 300 kg
+sloping_case 'horizontal_force = -102.77182461421357' 'horizontal_force = 257.47913675679433' >"$folder/pulled.toml"
+"$folder/own_load_key/build/own_load_key" "$folder/sloping.toml" "$folder/sloping"
+"$prefix/bin/wheelwright" run "$folder/pulled.toml" --output "$folder/pulled" >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
+for run in sloping pulled; do accepted_shapes "$folder/$run/history.csv" >"$folder/$run.txt"; done
+check_agreement "$folder/sloping.txt" "$folder/pulled.txt" || fail "an own key of [load] gives something else"
+grep -q '^slope = -5$' "$folder/sloping/case.toml" || fail "no own key in $(cat "$folder/sloping/case.toml")"
 
 export PKG_CONFIG_PATH=${library%/*}/pkgconfig
 read -ra package < <(pkg-config --cflags --libs wheelwright)

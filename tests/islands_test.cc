@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/evolution/evolver.h"
 #include "wheelwright/shape/geometry/shapes.h"

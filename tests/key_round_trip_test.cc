@@ -12,8 +12,8 @@
 #include "wheelwright/case/load_values.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/run/command_json.h"
-#include "wheelwright/run/command_log.h"
+#include "wheelwright/run/commands/command_json.h"
+#include "wheelwright/run/observers/command_log.h"
 
 // Every key, with a value other than its default, by every path that carries it. The tests visit the
 // declarations: a new key is in them at once, and fails wherever it was forgotten.

@@ -10,8 +10,8 @@
 
 #include "tests/run_support.h"
 #include "wheelwright/app/exit_code.h"
-#include "wheelwright/run/checkpoint.h"
-#include "wheelwright/run/checkpoint_folder.h"
+#include "wheelwright/run/checkpoints/checkpoint.h"
+#include "wheelwright/run/checkpoints/checkpoint_folder.h"
 
 // The program as its users and their machines treat it: killed, stopped, out of disk.
 

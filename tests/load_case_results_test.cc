@@ -4,7 +4,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/design/explore/report_designs.h"
 #include "wheelwright/output/report/comparison_table.h"
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/session/run.h"
 
 namespace wheelwright::testing {
 namespace {

@@ -10,8 +10,8 @@
 #include "wheelwright/optimization/sensitivity/taylor_test.h"
 #include "wheelwright/quantities/functionals/peak_von_mises.h"
 #include "wheelwright/quantities/functionals/uniformity_l2.h"
-#include "wheelwright/run/bounded_functions.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/bounded_functions.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "wheelwright/run/problem_size.h"
+#include "wheelwright/run/study/problem_size.h"
 
 namespace wheelwright {
 namespace {

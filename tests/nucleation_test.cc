@@ -8,7 +8,7 @@
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/optimization/optimizer/constraints.h"
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/session/run.h"
 
 namespace wheelwright::testing {
 namespace {

@@ -29,7 +29,7 @@
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/output/report/tread_contact.h"
 #include "wheelwright/output/report/vtu.h"
-#include "wheelwright/run/history.h"
+#include "wheelwright/run/checkpoints/history.h"
 #include "wheelwright/shape/geometry/cell_map.h"
 #include "wheelwright/shape/geometry/contour.h"
 

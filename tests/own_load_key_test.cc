@@ -10,9 +10,9 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/run/command_json.h"
-#include "wheelwright/run/command_log.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/commands/command_json.h"
+#include "wheelwright/run/observers/command_log.h"
+#include "wheelwright/run/study/study.h"
 
 // Keys of [load] that a program adds: from its case file to the loads on the wheel.
 

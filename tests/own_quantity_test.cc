@@ -6,7 +6,7 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/optimization/sensitivity/taylor_test.h"
 #include "wheelwright/quantities/functionals/boundary_integral.h"
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/session/run.h"
 #include "wheelwright/web/watch/board_observer.h"
 #include "wheelwright/web/watch/frame.h"
 

@@ -7,7 +7,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shorten.h"
 #include "wheelwright/mechanics/rolling/rolling_problem.h"
-#include "wheelwright/run/expectations.h"
+#include "wheelwright/run/observers/expectations.h"
 
 namespace wheelwright {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheelwright/run/plane_comparison.h"
+#include "wheelwright/run/study/plane_comparison.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include "wheelwright/case/read.h"
 #include "wheelwright/quantities/analysis/rolling_measures.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

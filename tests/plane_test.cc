@@ -8,7 +8,7 @@
 #include "wheelwright/quantities/functionals/uniformity_annulus.h"
 #include "wheelwright/quantities/functionals/uniformity_dual.h"
 #include "wheelwright/quantities/functionals/uniformity_l2.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

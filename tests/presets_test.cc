@@ -8,7 +8,7 @@
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/quantities/analysis/rolling_measures.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;

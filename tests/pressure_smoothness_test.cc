@@ -9,7 +9,7 @@
 #include "wheelwright/base/periodic.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/geometry/gauss.h"
 
 namespace wheelwright {

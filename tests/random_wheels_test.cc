@@ -15,8 +15,8 @@
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
-#include "wheelwright/run/predicted_deformation.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/predicted_deformation.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

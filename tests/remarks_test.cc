@@ -1,4 +1,4 @@
-#include "wheelwright/run/remarks.h"
+#include "wheelwright/run/results/remarks.h"
 
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"

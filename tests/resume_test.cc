@@ -6,9 +6,9 @@
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/version.h"
-#include "wheelwright/run/checkpoint.h"
-#include "wheelwright/run/checkpoint_folder.h"
-#include "wheelwright/run/folder_lock.h"
+#include "wheelwright/run/checkpoints/checkpoint.h"
+#include "wheelwright/run/checkpoints/checkpoint_folder.h"
+#include "wheelwright/run/checkpoints/folder_lock.h"
 
 namespace wheelwright::testing {
 namespace {

@@ -10,7 +10,7 @@
 #include "wheelwright/cad/outline/outline.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/output/report/described_wheel.h"
-#include "wheelwright/run/roughness_warning.h"
+#include "wheelwright/run/study/roughness_warning.h"
 #include "wheelwright/shape/geometry/cell_map.h"
 
 namespace wheelwright::cad {

@@ -1,9 +1,9 @@
-#include "wheelwright/run/run_report.h"
+#include "wheelwright/run/observers/run_report.h"
 
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/run/report_file.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/observers/report_file.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright::testing {
 namespace {

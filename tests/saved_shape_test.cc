@@ -8,7 +8,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/session/run.h"
 #include "wheelwright/shape/cut/measure.h"
 
 // Runs that begin with the shape of an earlier run, and runs that begin on coarser grids.

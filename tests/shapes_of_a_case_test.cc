@@ -10,8 +10,8 @@
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/run/loose_material.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/loose_material.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
 
 using namespace wheelwright;

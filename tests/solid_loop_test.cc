@@ -2,7 +2,7 @@
 
 #include "wheelwright/case/read.h"
 #include "wheelwright/optimization/optimizer/optimizer.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/geometry/mirror.h"
 
 // The loop of shapes in three dimensions.

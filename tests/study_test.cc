@@ -1,4 +1,4 @@
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 #include <gtest/gtest.h>
 

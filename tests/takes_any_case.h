@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wheelwright/run/run_control.h"
+#include "wheelwright/run/commands/run_control.h"
 
 namespace wheelwright::testing {
 

@@ -2,7 +2,7 @@
 
 #include "wheelwright/case/read.h"
 #include "wheelwright/mechanics/rolling/rolling_problem.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

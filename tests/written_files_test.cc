@@ -8,9 +8,9 @@
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/output_error.h"
-#include "wheelwright/run/folder_lock.h"
-#include "wheelwright/run/run_files.h"
-#include "wheelwright/run/stop_file.h"
+#include "wheelwright/run/checkpoints/folder_lock.h"
+#include "wheelwright/run/checkpoints/run_files.h"
+#include "wheelwright/run/commands/stop_file.h"
 
 // What the program did not write itself is never replaced and never removed.
 
@@ -237,7 +237,8 @@ TEST_F(UsersFolder, RunDeclaresEveryFileItWrites) {
   for (const auto& entry : fs::directory_iterator(place() / "run")) {
     const std::string name = entry.path().filename().string();
     const bool is_named = std::ranges::count(names_in_a_run_folder, name) > 0;
-    EXPECT_TRUE(is_named || name == list_of_written_files) << name << " is missing in run/run_files.h";
+    EXPECT_TRUE(is_named || name == list_of_written_files)
+        << name << " is missing in run/checkpoints/run_files.h";
   }
 }
 

@@ -2,8 +2,8 @@
 // that the library does not know. Prints accepted shapes and commands. Resumes the run that is in the folder.
 // usage: own_command CASE FOLDER LOG
 
-#include <wheelwright/run/case_file.h>
-#include <wheelwright/run/command_log.h>
+#include <wheelwright/run/checkpoints/case_file.h>
+#include <wheelwright/run/observers/command_log.h>
 #include <wheelwright/wheelwright.h>
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <wheelwright/run/command.h>
+#include <wheelwright/run/commands/command.h>
 
 /// Multiplies the force on the wheel by a factor. Refused if the case has several loads, or gives the travel
 /// of the rim in place of a force.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <wheelwright/run/observer.h>
+#include <wheelwright/run/observers/observer.h>
 
 #include <cstdio>
 

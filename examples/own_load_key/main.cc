@@ -1,7 +1,7 @@
 // Optimizes the wheel of a case file whose section [load], or load cases, can have a key of this program,
 // `slope`. Run again, it continues a run that was stopped. usage: own_load_key CASE FOLDER
 
-#include <wheelwright/run/case_file.h>
+#include <wheelwright/run/checkpoints/case_file.h>
 #include <wheelwright/wheelwright.h>
 
 #include <cstdio>

@@ -8,8 +8,8 @@
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/run/case_report.h"
-#include "wheelwright/run/problem_size.h"
+#include "wheelwright/run/study/case_report.h"
+#include "wheelwright/run/study/problem_size.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;

@@ -5,7 +5,7 @@
 #include "wheelwright/files/checksum.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/files/little_endian.h"
-#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/checkpoints/checkpoint.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;

@@ -3,8 +3,8 @@
 
 #include "tests/fuzz/target.h"
 #include "wheelwright/cad/drawing/parts.h"
-#include "wheelwright/run/command_json.h"
-#include "wheelwright/run/command_log.h"
+#include "wheelwright/run/commands/command_json.h"
+#include "wheelwright/run/observers/command_log.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;

@@ -11,7 +11,7 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/run/case_report.h"
+#include "wheelwright/run/study/case_report.h"
 
 namespace wheelwright {
 namespace {

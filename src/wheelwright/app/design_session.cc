@@ -17,9 +17,9 @@
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/files/written_files.h"
-#include "wheelwright/run/problem_size.h"
-#include "wheelwright/run/run_title.h"
-#include "wheelwright/run/stop_text.h"
+#include "wheelwright/run/results/run_title.h"
+#include "wheelwright/run/results/stop_text.h"
+#include "wheelwright/run/study/problem_size.h"
 
 namespace wheelwright {
 namespace {

@@ -11,7 +11,7 @@
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/design/explore/exploration.h"
-#include "wheelwright/run/folder_lock.h"
+#include "wheelwright/run/checkpoints/folder_lock.h"
 
 namespace wheelwright {
 

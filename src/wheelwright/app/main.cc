@@ -11,7 +11,7 @@
 #include "wheelwright/app/guarded.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/process_settings.h"
-#include "wheelwright/run/provenance.h"
+#include "wheelwright/run/checkpoints/provenance.h"
 
 namespace wheelwright {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "wheelwright/run/problem_size.h"
+#include "wheelwright/run/study/problem_size.h"
 
 namespace wheelwright {
 namespace {

@@ -9,9 +9,9 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/output/report/gains.h"
-#include "wheelwright/run/bounded_functions.h"
-#include "wheelwright/run/failure_report.h"
-#include "wheelwright/run/stop_text.h"
+#include "wheelwright/run/observers/failure_report.h"
+#include "wheelwright/run/results/stop_text.h"
+#include "wheelwright/run/study/bounded_functions.h"
 
 namespace wheelwright {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/signals.h"
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/session/run.h"
 
 namespace wheelwright {
 

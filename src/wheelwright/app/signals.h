@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "wheelwright/run/commands.h"
+#include "wheelwright/run/commands/commands.h"
 
 namespace wheelwright {
 

@@ -7,8 +7,8 @@
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/unlimited.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
-#include "wheelwright/run/feature_warnings.h"
-#include "wheelwright/run/roughness_warning.h"
+#include "wheelwright/run/study/feature_warnings.h"
+#include "wheelwright/run/study/roughness_warning.h"
 
 namespace wheelwright {
 namespace {

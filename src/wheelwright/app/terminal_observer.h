@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "wheelwright/app/progress.h"
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/session/run.h"
 
 namespace wheelwright {
 

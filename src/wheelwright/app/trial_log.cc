@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "wheelwright/base/text.h"
-#include "wheelwright/run/bounded_functions.h"
+#include "wheelwright/run/study/bounded_functions.h"
 
 namespace wheelwright {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "wheelwright/app/progress.h"
-#include "wheelwright/run/observer.h"
+#include "wheelwright/run/observers/observer.h"
 
 namespace wheelwright {
 

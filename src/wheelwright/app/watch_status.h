@@ -4,7 +4,7 @@
 #include <string>
 
 #include "wheelwright/app/progress.h"
-#include "wheelwright/run/observer.h"
+#include "wheelwright/run/observers/observer.h"
 
 namespace wheelwright {
 

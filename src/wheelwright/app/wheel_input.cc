@@ -8,7 +8,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/files/path_queries.h"
-#include "wheelwright/run/resume_point.h"
+#include "wheelwright/run/checkpoints/resume_point.h"
 #include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {

@@ -9,8 +9,8 @@
 #include "wheelwright/app/options.h"
 #include "wheelwright/base/expected.h"
 #include "wheelwright/case/case.h"
-#include "wheelwright/run/checkpoint.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/checkpoints/checkpoint.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 

@@ -19,7 +19,7 @@
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

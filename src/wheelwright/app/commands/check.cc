@@ -9,14 +9,14 @@
 #include "wheelwright/app/slow_stage.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/dimension.h"
-#include "wheelwright/run/bound_warnings.h"
-#include "wheelwright/run/case_report.h"
-#include "wheelwright/run/feature_warnings.h"
-#include "wheelwright/run/filled_holes.h"
-#include "wheelwright/run/loose_material.h"
-#include "wheelwright/run/plane_comparison.h"
-#include "wheelwright/run/predicted_deformation.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/bound_warnings.h"
+#include "wheelwright/run/study/case_report.h"
+#include "wheelwright/run/study/feature_warnings.h"
+#include "wheelwright/run/study/filled_holes.h"
+#include "wheelwright/run/study/loose_material.h"
+#include "wheelwright/run/study/plane_comparison.h"
+#include "wheelwright/run/study/predicted_deformation.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

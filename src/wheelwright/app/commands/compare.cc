@@ -8,7 +8,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/output/report/wheel_comparison.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {

@@ -19,7 +19,7 @@
 #include "wheelwright/output/export/fit_surface.h"
 #include "wheelwright/output/export/formats.h"
 #include "wheelwright/output/export/plugin.h"
-#include "wheelwright/run/roughness_warning.h"
+#include "wheelwright/run/study/roughness_warning.h"
 
 namespace wheelwright {
 namespace {

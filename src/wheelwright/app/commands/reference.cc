@@ -2,8 +2,8 @@
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/run/command_reference.h"
-#include "wheelwright/run/commands.h"
+#include "wheelwright/run/commands/command_reference.h"
+#include "wheelwright/run/commands/commands.h"
 
 namespace wheelwright {
 namespace {

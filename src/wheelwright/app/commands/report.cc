@@ -9,10 +9,10 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
-#include "wheelwright/run/final_results.h"
-#include "wheelwright/run/given_wheel.h"
-#include "wheelwright/run/run_report.h"
-#include "wheelwright/run/summarized_run.h"
+#include "wheelwright/run/observers/run_report.h"
+#include "wheelwright/run/results/final_results.h"
+#include "wheelwright/run/results/given_wheel.h"
+#include "wheelwright/run/results/summarized_run.h"
 #include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {

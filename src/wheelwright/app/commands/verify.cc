@@ -10,7 +10,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
-#include "wheelwright/run/gradient_check.h"
+#include "wheelwright/run/study/gradient_check.h"
 
 namespace wheelwright {
 namespace {

@@ -14,7 +14,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/watch_status.h"
 #include "wheelwright/files/path_queries.h"
-#include "wheelwright/run/command_log.h"
+#include "wheelwright/run/observers/command_log.h"
 #include "wheelwright/web/server/local_server.h"
 #include "wheelwright/web/watch/session.h"
 

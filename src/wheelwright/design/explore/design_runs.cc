@@ -13,8 +13,8 @@
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/output/report/described_wheel.h"
-#include "wheelwright/run/own_drawings.h"
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/checkpoints/own_drawings.h"
+#include "wheelwright/run/session/run.h"
 
 namespace wheelwright {
 namespace {

@@ -13,7 +13,7 @@
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/output/report/svg.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
 namespace {

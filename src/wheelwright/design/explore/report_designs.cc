@@ -15,7 +15,7 @@
 #include "wheelwright/output/page/html_template.h"
 #include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/output/report/svg.h"
-#include "wheelwright/run/stop_text.h"
+#include "wheelwright/run/results/stop_text.h"
 
 namespace wheelwright {
 namespace {

@@ -12,7 +12,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/design/starts/draft.h"
-#include "wheelwright/run/study.h"
+#include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {

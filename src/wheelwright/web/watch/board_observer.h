@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "wheelwright/run/observer.h"
+#include "wheelwright/run/observers/observer.h"
 #include "wheelwright/web/watch/board.h"
 
 namespace wheelwright {

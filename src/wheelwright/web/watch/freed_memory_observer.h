@@ -2,7 +2,7 @@
 
 #include "wheelwright/base/process_settings.h"
 #include "wheelwright/base/stopwatch.h"
-#include "wheelwright/run/observer.h"
+#include "wheelwright/run/observers/observer.h"
 
 namespace wheelwright {
 

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "wheelwright/output/report/numbers_json.h"
-#include "wheelwright/run/case_report.h"
-#include "wheelwright/run/feature_warnings.h"
-#include "wheelwright/run/own_numbers.h"
-#include "wheelwright/run/remarks.h"
-#include "wheelwright/run/roughness_warning.h"
+#include "wheelwright/run/results/own_numbers.h"
+#include "wheelwright/run/results/remarks.h"
+#include "wheelwright/run/study/case_report.h"
+#include "wheelwright/run/study/feature_warnings.h"
+#include "wheelwright/run/study/roughness_warning.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/evolution/regrid.h"
 #include "wheelwright/shape/evolution/volume.h"

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/run/command_queue.h"
-#include "wheelwright/run/observer.h"
+#include "wheelwright/run/commands/command_queue.h"
+#include "wheelwright/run/observers/observer.h"
 
 namespace wheelwright {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "wheelwright/base/expected.h"
-#include "wheelwright/run/run_report.h"
+#include "wheelwright/run/observers/run_report.h"
 #include "wheelwright/web/watch/board.h"
 
 namespace wheelwright {

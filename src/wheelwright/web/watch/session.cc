@@ -6,8 +6,8 @@
 
 #include "wheelwright/case/unlimited.h"
 #include "wheelwright/output/page/assets.h"
-#include "wheelwright/run/command_json.h"
-#include "wheelwright/run/command_log.h"
+#include "wheelwright/run/commands/command_json.h"
+#include "wheelwright/run/observers/command_log.h"
 #include "wheelwright/web/watch/board_observer.h"
 #include "wheelwright/web/watch/frame.h"
 #include "wheelwright/web/watch/freed_memory_observer.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "wheelwright/run/run.h"
+#include "wheelwright/run/session/run.h"
 #include "wheelwright/web/server/local_server.h"
 #include "wheelwright/web/watch/board.h"
 #include "wheelwright/web/watch/designs.h"

@@ -1,0 +1,127 @@
+#include "wheelwright/run/observers/result_files.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "wheelwright/case/shown_value.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/output/report/shape_boundary.h"
+#include "wheelwright/output/report/solid_mesh.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/surface_vtp.h"
+#include "wheelwright/output/report/svg.h"
+#include "wheelwright/output/report/wheel_pictures.h"
+#include "wheelwright/run/results/run_title.h"
+#include "wheelwright/shape/cut/measure.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+WheelState<dim> wheel_state(const RunView<dim>& run, const std::string& heading, const LevelSet<dim>& shape,
+                            double objective, double measure) {
+  const ShownUnit shown = shown_unit(run.study.source.objective.minimize, run.study.source.wheel);
+  return {heading, shape_boundary(shape, run.study.model().degree), objective * shown.factor,
+          volume_fraction(shape.lattice.grid(), measure)};
+}
+
+void write_for_workshop(const RunView<2>& run, const std::vector<Contour>& contours) {
+  write_atomically(run.folder / "shape.svg",
+                   shape_svg(run.study.grid(), contours, run_title(run.study.source)));
+}
+
+void write_for_workshop(const RunView<3>& run, const SurfaceMesh& surface) {
+  const SolidMesh solid = solid_mesh(surface);
+  if (const auto checked = check_solid(solid); !checked)
+    throw std::logic_error("shape.stl: " + checked.failure().what);
+  write_atomically(run.folder / "shape.stl",
+                   stl_file(solid, "wheelwright, millimetres: " + run_title(run.study.source)));
+}
+
+template <int dim>
+void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
+                  const KnownNumber& before_objective) {
+  constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
+  const LevelSet<dim>& given = run.study.initial;
+  const auto before = wheel_state(run, "initial", given, before_objective ? *before_objective : not_computed,
+                                  material_measure(given));
+  const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
+                                 last.evaluation.function("objective").value, last.measure);
+  write_for_workshop(run, after.boundary);
+  const Quantity& minimized = run.study.source.objective.minimize;
+  const std::string load = load_text(run.study.model());
+  write_atomically(
+      run.folder / "comparison.svg",
+      comparison_svg(run.study.grid(),
+                     Comparison<dim>{.title = run_title(run.study.source),
+                                     .caption = minimized == Quantity()
+                                                    ? fmt::format("sum over {} load positions, {}",
+                                                                  run.study.model().n_positions, load)
+                                                    : load,
+                                     .objective_name = std::string(name(minimized)),
+                                     .objective_unit = shown_unit(minimized, run.study.source.wheel).name,
+                                     .before = before,
+                                     .after = after}));
+}
+
+/// The wheel under every load case except the first: its pictures at its worst position, in the folder
+/// load_cases.
+template <int dim>
+void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& solver,
+                            const LevelSet<dim>& shape, const State<dim>& first) {
+  if (run.study.load_cases.size() > 1) make_subfolder(run.folder / "load_cases");
+  for (std::size_t k = 1; k < run.study.load_cases.size(); ++k) {
+    const auto& [name, model] = run.study.load_cases[k];
+    const auto state = first.under(with_loads(first.model(), model), Interrupt());
+    if (!state) continue;
+    const int worst = worst_position((*state)->strain_energy());
+    for_each_position<dim>(solver, **state, [&](int position, const PositionFields<dim>& fields) {
+      if (position == worst)
+        write_wheel_pictures(run.folder / "load_cases",
+                             {.prefix = name + "_",
+                              .title = run_title(run.study.source) + ", " + name,
+                              .width = run.study.source.wheel.width},
+                             shape, (*state)->domain(), fields);
+    });
+  }
+}
+
+void write_surface(const RunView<2>&, const LevelSet<2>&, const PositionFields<2>&) {}
+
+void write_surface(const RunView<3>& run, const LevelSet<3>& shape, const PositionFields<3>& worst) {
+  write_atomically(run.folder / "surface.vtp", surface_vtp(shape_boundary(shape, run.study.model().degree),
+                                                           worst.lattice, named_fields(worst)));
+}
+
+}  // namespace
+
+template <int dim>
+void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  if (const auto* shown = std::get_if<PositionShown<dim>>(&event)) write(*shown, run);
+  const auto* ended = std::get_if<RunEnded<dim>>(&event);
+  if (!ended || !ended->solution) return;
+  rolling_->write_collection();
+  rolling_.reset();
+  write_shapes(run, *ended->state, ended->summary->before.objective);
+  write_other_load_cases(run, *ended->solver, ended->state->shape, *ended->solution);
+}
+
+template <int dim>
+void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>& run) {
+  const LevelSet<dim>& shape = shown.ended.state->shape;
+  const State<dim>& solution = *shown.ended.solution;
+  if (!rolling_) rolling_.emplace(run.folder, shape, *shown.ended.solver, solution);
+  rolling_->write(shown.position, shown.fields);
+  if (shown.position != worst_position(solution.strain_energy())) return;
+  write_surface(run, shape, shown.fields);
+  write_wheel_pictures(
+      run.folder, {.prefix = "", .title = run_title(run.study.source), .width = run.study.source.wheel.width},
+      shape, solution.domain(), shown.fields);
+}
+
+template class ResultFiles<2>;
+template class ResultFiles<3>;
+
+}  // namespace wheelwright

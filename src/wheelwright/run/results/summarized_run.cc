@@ -1,0 +1,54 @@
+#include "wheelwright/run/results/summarized_run.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/case/shown_value.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/run/results/given_wheel.h"
+#include "wheelwright/run/results/remarks.h"
+#include "wheelwright/run/results/run_title.h"
+#include "wheelwright/run/study/bounded_functions.h"
+
+namespace wheelwright {
+namespace {
+
+std::string minimized_text(const Quantity& quantity, const Wheel& wheel) {
+  if (quantity == Quantity()) return {};
+  return fmt::format("{} [{}]", name(quantity), shown_unit(quantity, wheel).name);
+}
+
+template <int dim>
+std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state, const Wheel& wheel) {
+  std::vector<SummarizedBound> result;
+  for (const BoundState& b : bound_states(state.evaluation, state.memory.multipliers))
+    result.push_back({b.name, b.value, b.bound, b.relation, b.multiplier, b.is_kept(), unit<dim>(b.unit),
+                      shown_unit(b.unit, dim, wheel.width)});
+  return result;
+}
+
+KnownNumber known(const Expected<double>& value) {
+  if (value) return *value;
+  return fmt::format("{}: {}", to_string(value.failure().reason), value.failure().detail);
+}
+
+}  // namespace
+
+template <int dim>
+RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>& start,
+                               const Expected<double>& objective, DescribedWheel<dim> before,
+                               const OptimizationState<dim>& last, DescribedWheel<dim> after) {
+  auto worse = remarks(study.source, before, after);
+  return {.title = run_title(study.source),
+          .before = {0, known(objective), std::move(before)},
+          .after = {last.iteration, last.evaluation.function("objective").value, std::move(after)},
+          .bounds = summarized_bounds(last, study.source.wheel),
+          .minimized = minimized_text(study.source.objective.minimize, study.source.wheel),
+          .objective = shown_unit(study.source.objective.minimize, study.source.wheel),
+          .remarks = std::move(worse),
+          .changed_start = changed_start(study, start)};
+}
+
+template decltype(summarized_run<2>) summarized_run<2>;
+template decltype(summarized_run<3>) summarized_run<3>;
+
+}  // namespace wheelwright

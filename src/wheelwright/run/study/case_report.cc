@@ -1,0 +1,217 @@
+#include "wheelwright/run/study/case_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/number_text.h"
+#include "wheelwright/case/overload.h"
+#include "wheelwright/case/shape_symmetry.h"
+#include "wheelwright/case/shown_value.h"
+#include "wheelwright/mechanics/rolling/contact_failure.h"
+#include "wheelwright/run/study/problem_size.h"
+
+namespace wheelwright {
+
+namespace {
+
+std::string line(std::string_view name, std::string_view value) {
+  return fmt::format("  {:<22}{}\n", name, value);
+}
+
+std::string load_report(const Case& c) {
+  const std::string load = c.load.travel
+                               ? line("rim travel", fmt::format("{:.6g} mm", *c.load.travel * 1e3))
+                               : line("load", fmt::format("{:.6g} N on {:.6g} m = {:.6g} N/m", c.load.force,
+                                                          c.wheel.width, load_per_metre(c)));
+  const std::string speed = c.load.speed > 0 ? line("speed", fmt::format("{:.6g} m/s", c.load.speed)) : "";
+  return load + speed +
+         line("load positions",
+              fmt::format("{} per sector, {} around the wheel", c.load.positions, total_load_positions(c)));
+}
+
+std::string material_report(const Case& c) {
+  return line("lambda", fmt::format("{:.6g} MPa", c.material.lambda() / 1e6)) +
+         line("mu", fmt::format("{:.6g} MPa", c.material.mu() / 1e6)) +
+         line("E* of the contact", fmt::format("{:.6g} MPa", c.material.contact_modulus() / 1e6));
+}
+
+/// How the tread is refined, and estimates for a given load.
+std::string contact_report(const Case& c) {
+  const std::string levels = line(
+      "tread levels", fmt::format("{} in a run, {} in results", tread_levels(c), tread_levels_of_results(c)));
+  if (c.load.travel || c.contact.with == Counterpart::ring) return levels;
+  return levels + line("Hertz half-width", fmt::format("{:.4g} mm", hertz_half_width(c) * 1e3)) +
+         line("Hertz peak pressure", fmt::format("{:.4g} MPa", hertz_peak_pressure(c) / 1e6)) +
+         line("cells in the contact",
+              fmt::format("{:.1f} of {:.4g} mm", cells_per_contact_patch(c), tread_cell_width(c) * 1e3));
+}
+
+std::string time_report(const Case& c) {
+  return line("time", fmt::format("about {:.2g} s for one shape on one core",
+                                  estimated_seconds_in_3d(problem_size(c)))) +
+         line("with grooves", fmt::format("at most about {:.0f} MB and {:.2g} s, once edges cross all faces "
+                                          "between sectors",
+                                          std::ceil(estimated_memory(problem_size_of_grooves(c)) / 1e6),
+                                          estimated_seconds_in_3d(problem_size_of_grooves(c))));
+}
+
+std::string drawing_report(const Case& c) {
+  std::string report;
+  for (const auto& [key, text] : drawing_repetitions(c)) report += line(key, text);
+  return report;
+}
+
+std::string size_report(const Case& c) {
+  const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
+  return drawing_report(c) +
+         line("sector", fmt::format("1 of {}, {:.6g} deg, {} x {}{} cells", c.wheel.sectors,
+                                    sector_angle(c) * 180 / std::numbers::pi, c.grid.radial_cells,
+                                    c.grid.angular_cells / c.wheel.sectors, along_axle)) +
+         line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
+                                      dof_bound(c) / c.wheel.sectors)) +
+         line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(problem_size(c)) / 1e6))) +
+         (c.wheel.dimension == 3 ? time_report(c) : "");
+}
+
+/// Lengths given in millimetres yield a wheel of hundreds of metres.
+std::vector<std::string> doubtful_lengths(const Case& c) {
+  constexpr double largest_radius = 10, widest = 10;  // [m], and in outer radii
+  const auto doubt = [](const char* key, double value) {
+    return fmt::format("{} = {} m: lengths are in metres; if that is in mm, write {}", key,
+                       number_text(value), number_text(value / 1000));
+  };
+  std::vector<std::string> result;
+  if (c.wheel.outer_radius > largest_radius)
+    result.push_back(doubt("wheel.outer_radius", c.wheel.outer_radius));
+  if (c.wheel.width > std::max(largest_radius, widest * c.wheel.outer_radius))
+    result.push_back(doubt("wheel.width", c.wheel.width));
+  return result;
+}
+
+/// Moduli given in megapascals yield a wheel of jelly.
+std::vector<std::string> doubtful_modulus(const Case& c) {
+  if (!may_be_in_megapascals(c.material.youngs_modulus)) return {};
+  return {fmt::format("material.youngs_modulus = {} Pa: {}", number_text(c.material.youngs_modulus),
+                      question_of_megapascals(c.material.youngs_modulus))};
+}
+
+/// Explains the effect of a patch of too few cells, and what would help. Below the grid scale the contact is
+/// a line load on a cell, whose indentation contains the logarithm of the cell's width instead of the
+/// patch's.
+std::string coarse_contact_warning(const Case& c, double cells) {
+  Case finest = c;
+  finest.grid.tread_levels.reset();
+  finest = with_levels_of_results(finest);
+  const double reachable = cells_per_contact_patch(finest);
+  std::string text = fmt::format("the contact patch is only {:.2g} cells wide: ", cells);
+  if (cells < 1)
+    text += fmt::format(
+        "pressures are not resolved, and the travel and the strain energy lack part of the local "
+        "indentation, about {:.2g} mm",
+        -std::log(cells) * 2 * load_per_metre(c) / (std::numbers::pi * c.material.contact_modulus()) * 1e3);
+  else
+    text += "pressures are not resolved; energies are accurate to about one percent";
+  if (reachable >= least_cells_per_contact_patch)
+    return text + fmt::format("; with grid.tread_levels = {} it is {:.1f} cells wide",
+                              *finest.grid.tread_levels, reachable);
+  return text + fmt::format("; grid.angular_cells >= {:.0f} would resolve it",
+                            std::ceil(c.grid.angular_cells * least_cells_per_contact_patch / reachable));
+}
+
+std::string bounds_report(const Case& c) {
+  std::string report;
+  for (const Constraint& bound : c.constraints) {
+    std::string text(name(bound.quantity));
+    const char* separator = " ";
+    for (const auto& [words, value] :
+         {std::pair{"at least", bound.at_least}, {"at most", bound.at_most}, {"equal to", bound.equals}})
+      if (value) {
+        text += fmt::format("{}{} {}", separator, words, shown_text(bound.quantity, *value, c.wheel));
+        separator = ", ";
+      }
+    if (bound.over == OverPositions::worst) text += " at the worst load position";
+    if (bound.over == OverPositions::each) text += " at each load position";
+    if (!bound.load_case.empty()) text += " in " + bound.load_case;
+    report += line("bound", text);
+  }
+  return report;
+}
+
+}  // namespace
+
+std::string derived_report(const Case& c) {
+  if (c.load.cases.empty())
+    return load_report(c) + material_report(c) + contact_report(c) + size_report(c) + bounds_report(c);
+  std::string report;
+  Case finest = c;
+  finest.grid.tread_levels = tread_levels(c);
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k) {
+    const Case single = with_load_case(finest, static_cast<int>(k));
+    report +=
+        line("load case", fmt::format("{}, weight {:.6g}", c.load.cases[k].name, c.load.cases[k].weight)) +
+        load_report(single) + contact_report(single);
+  }
+  return report + material_report(c) + size_report(c) + bounds_report(c);
+}
+
+std::string clearance_report(const cad::Clearances& clearances) {
+  const auto width = [](const char* name, const std::optional<cad::Clearance>& clearance) {
+    return clearance ? line(name, fmt::format("{:.4g} mm", clearance->width * 1e3)) : std::string();
+  };
+  return width("thinnest wall", clearances.wall) + width("narrowest gap", clearances.gap);
+}
+
+std::vector<std::string> warnings(const Case& c) {
+  std::vector<std::string> result = doubtful_lengths(c);
+  std::ranges::move(asymmetry_warnings(c), std::back_inserter(result));
+  std::ranges::move(doubtful_modulus(c), std::back_inserter(result));
+  Case run = c;
+  run.grid.tread_levels = tread_levels(c);
+  const Case narrowest = std::ranges::min(single_load_cases(run), {}, cells_per_contact_patch);
+  if (const double cells = cells_per_contact_patch(narrowest); cells < least_cells_per_contact_patch)
+    result.push_back(coarse_contact_warning(narrowest, cells));
+  if (wants_uniformity(c) && c.grid.angular_cells % total_load_positions(c) != 0)
+    result.push_back(fmt::format(
+        "load positions between columns of cells use different points of the tread, which affects the "
+        "uniformity functionals; with grid.angular_cells a multiple of sectors * positions = {} they do not",
+        total_load_positions(c)));
+  if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never)
+    result.push_back("there are no holes, so no boundary can move");
+  if (const double cells = smallest_hole_in_cells(c);
+      cells < least_cells_per_hole && c.optimizer.smoothing == 0)
+    result.push_back(
+        fmt::format("the smallest hole is {:.1f} cells wide: its edge may fray into fingers one cell wide; "
+                    "optimizer.smoothing = 0.1 or a finer grid prevents this",
+                    cells));
+  if (c.ghost_penalty.kind == GhostPenaltyKind::paper && c.grid.degree == 2)
+    result.push_back(
+        "ghost_penalty.kind = \"paper\" does not keep the stiffness well conditioned for degree 2: some "
+        "shapes will "
+        "fail; \"full\" is safe");
+  if (const double nu = c.material.plane_strain_equivalent().poissons_ratio; c.grid.degree == 1 && nu > 0.4)
+    result.push_back(fmt::format(
+        "grid.degree = 1 is too stiff for material.poissons_ratio = {}: at 0.48 and 28 x 384 cells "
+        "travel and energy are 5 % too small and pressures useless; grid.degree = 2 is accurate",
+        c.material.poissons_ratio));
+  if (c.contact.method == ContactMethod::nitsche && c.contact.gamma_0 > largest_smooth_gamma_0)
+    result.push_back(
+        fmt::format("contact.gamma_0 = {} is so large that pressures may oscillate by a third; "
+                    "contact.theta = -1 and 0 need at most {:g}",
+                    c.contact.gamma_0, enough_gamma_0));
+  if (c.ghost_penalty.xi == 0)
+    result.push_back("ghost_penalty.xi = 0: slivers in cut cells will spoil the solution");
+  if (c.optimizer.velocity == VelocityKind::harmonic && c.optimizer.smoothing == 0)
+    result.push_back(
+        "optimizer.velocity = \"harmonic\" without optimizer.smoothing lets fingers one cell wide "
+        "grow; smoothing = 0.3 with smooth_every = 1, or velocity = \"h1\", prevents this");
+  if (c.volume.control == VolumeControl::paper)
+    result.push_back("volume.control = \"paper\" lets the volume drift; \"exact\" keeps it fixed");
+  return result;
+}
+
+}  // namespace wheelwright
