@@ -44,43 +44,23 @@ Matrix dilatation_columns(const ElasticElement<dim>& element, std::span<const Re
   return columns;
 }
 
-template <int dim>
-using BoundaryRule = std::vector<ReferenceSurfacePoint<dim>>;
-
-template <int dim>
-BoundaryRule<dim> mirrored(BoundaryRule<dim> rule) {
-  for (auto& q : rule) {
+/// The mirror image of the points of a cell.
+template <int dim, class Point>
+std::vector<Point> mirrored(std::vector<Point> points) {
+  for (Point& q : points) {
     q.xi[1] = 1 - q.xi[1];
-    q.normal = mirror_image<dim>(q.normal);
+    if constexpr (requires { q.normal; }) q.normal = mirror_image<dim>(q.normal);
   }
-  return rule;
-}
-
-template <int dim>
-using EdgeRule = std::vector<ReferenceEdgePoint<dim>>;
-
-template <int dim>
-EdgeRule<dim> mirrored(EdgeRule<dim> rule) {
-  for (auto& q : rule) {
-    q.xi[1] = 1 - q.xi[1];
-    q.normal = mirror_image<dim>(q.normal);
-  }
-  return rule;
-}
-
-template <int dim>
-std::vector<ReferencePoint<dim>> mirrored(std::vector<ReferencePoint<dim>> rule) {
-  for (auto& q : rule) q.xi[1] = 1 - q.xi[1];
-  return rule;
+  return points;
 }
 
 /// The moving boundary in one cell, each of its points as often as it counts, and the material of the cell.
 template <int dim>
 struct CellBoundary {
   int cell;
-  BoundaryRule<dim> rule;
+  std::vector<ReferenceSurfacePoint<dim>> rule;
   std::vector<ReferencePoint<dim>> material;
-  EdgeRule<dim> edges;
+  std::vector<ReferenceEdgePoint<dim>> edges;
 };
 
 /// The cells in which gradients are given for one cut cell: it alone; or it and its image, when positions

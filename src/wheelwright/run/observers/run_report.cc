@@ -139,13 +139,9 @@ double last_elapsed(const ReportRun<dim>& run) {
 
 std::string status_text(std::optional<StopReason> reason) { return reason ? text(*reason) : "not ended"; }
 
+/// `of_roughness` is empty if the edges are smooth.
 template <int dim>
-std::string roughness_warning(const Case& c, const RunSummary<dim>& summary) {
-  return roughness_warning(c, roughness(summary.after.wheel), roughness(summary.before.wheel));
-}
-
-template <int dim>
-std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
+std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary, const std::string& of_roughness,
                                std::optional<StopReason> reason) {
   const DescribedWheel<dim>& wheel = summary.after.wheel;
   std::vector<std::string> result;
@@ -159,7 +155,7 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
       result.push_back(warning);
   if (wheel.outline)
     for (const std::string& warning : feature_warnings(c, *wheel.outline)) result.push_back(warning);
-  if (const auto warning = roughness_warning(c, summary); !warning.empty()) result.push_back(warning);
+  if (!of_roughness.empty()) result.push_back(of_roughness);
   for (const std::string& warning : warnings(with_levels_of_results(c))) result.push_back(warning);
   for (const std::string& line : missing_lines(summary)) result.push_back(line);
   for (const Remark& remark : summary.remarks) result.push_back(text(remark));
@@ -255,8 +251,10 @@ ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const Ru
   ReportRun<dim> run = report_of_folder<dim>(folder, c);
   run.is_running = false;
   run.status = status_text(reason);
-  run.flags = flags(c, summary, reason);
-  run.has_rough_edges = !roughness_warning(c, summary).empty();
+  const std::string of_roughness =
+      roughness_warning(c, roughness(summary.after.wheel), roughness(summary.before.wheel));
+  run.flags = flags(c, summary, of_roughness, reason);
+  run.has_rough_edges = !of_roughness.empty();
   run.limits = limits(c, summary.after.wheel);
   run.summary = summary;
   if (!summary.changed_start.empty())
