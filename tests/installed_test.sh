@@ -163,10 +163,9 @@ done
 build_example own_load_key
 # sloping_case ROAD HILL: two load cases with these keys.
 sloping_case() {
-  cat "$folder/case.toml"
+  sed 's/^gamma_0 = 1$/gamma_0 = 1\nfriction = 0.9/' "$folder/case.toml"
   printf '\n[[load.case]]\nname = "road"\n%s\n[[load.case]]\nname = "hill"\n%s\n' "$1" "$2"
 }
-sed -i 's/^gamma_0 = 1$/gamma_0 = 1\nfriction = 0.9/' "$folder/case.toml"
 sloping_case 'slope = 2' 'slope = -5' >"$folder/sloping.toml"
 # -m g tan(slope) of 300 kg
 sloping_case 'horizontal_force = -102.77182461421357' 'horizontal_force = 257.47913675679433' >"$folder/pulled.toml"
