@@ -56,7 +56,8 @@ OwnLoadKeys own_keys() {
 
 std::string text_of(int dimension, const std::string& load) {
   return "[wheel]\nsectors = 8\ndimension = " + std::to_string(dimension) +
-         "\n[contact]\nfriction = 0.9\n[grid]\nradial_cells = 7\nangular_cells = 96\n"
+         "\n[optimizer]\nrim_band = 0.02\ntread_band = 0.04\n[contact]\nfriction = 0.9\n[grid]\nradial_cells "
+         "= 7\nangular_cells = 96\n"
          "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.02\n"
          "[load]\nforce = 1000\npositions = 2\n" +
          load;
