@@ -85,7 +85,7 @@ bool may_compute(const std::string& command, const Case& c, const std::filesyste
 }
 
 int report_failure(const std::string& command, const Failure& failure) {
-  print_err("wheelwright {}: {}: {}\n", command, to_string(failure.reason), failure.detail);
+  print_err("wheelwright {}: {}\n", command, to_string(failure));
   return exit_no_solution;
 }
 

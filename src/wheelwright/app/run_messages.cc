@@ -91,7 +91,7 @@ struct NotBegunReport {
     return bounds == exit_done ? expected : bounds;
   }
   int operator()(const Failure& failure) const {
-    print_err("wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
+    print_err("wheelwright: {}\n", to_string(failure));
     return exit_no_solution;
   }
 };

@@ -81,6 +81,11 @@ struct Failure {
   std::string detail;  ///< one line: where, by how much, and what would help
 };
 
+/// "REASON: DETAIL".
+inline std::string to_string(const Failure& failure) {
+  return std::string(to_string(failure.reason)) + ": " + failure.detail;
+}
+
 /// Holds either a T or the error E, by default a numerical Failure, that prevented it.
 template <class T, class E = Failure>
 class [[nodiscard]] Expected {

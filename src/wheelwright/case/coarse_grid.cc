@@ -50,6 +50,15 @@ bool has_room_between_bands(const Case& c, int level) {
   return rim.thickness + tread.thickness < ring - cell;
 }
 
+int level_with_few_cells(const Grid& grid, int most_cells) {
+  constexpr int min_rows = 6;
+  int level = 0;
+  while ((grid.radial_cells >> level) * (grid.angular_cells >> level) > most_cells &&
+         grid.radial_cells >> (level + 1) >= min_rows)
+    ++level;
+  return level;
+}
+
 std::string grid_text(const Case& c) {
   const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
   return fmt::format("grid {} x {}{}", c.grid.radial_cells, c.grid.angular_cells, along_axle);

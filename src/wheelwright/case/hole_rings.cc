@@ -9,7 +9,7 @@
 namespace wheelwright {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Beyond this number of rings, pairs are too many to compare.
 constexpr std::size_t most_compared = 1000;

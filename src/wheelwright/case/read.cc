@@ -546,7 +546,7 @@ void check_conflicts(Reading& reading, const Case& c) {
 }
 
 /// The table of a key: "shape.file[1]" of "shape.file[1].unit".
-std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
+std::string table_path(const std::string& key) { return key.substr(0, key.rfind('.')); }
 
 /// Loads the drawings of shapes without problems, and the saved shape. Returns the problems inside the
 /// drawings; those on lines of the case are added to the reading's.
@@ -560,7 +560,7 @@ std::vector<Diagnostic> load_drawings(Reading& reading, Case& c) {
   for (FileProblem& problem : problems) {
     const auto given = reading.entries.find(problem.key);
     const Entry at =
-        given != reading.entries.end() ? given->second : reading.entries.at(table_of(problem.key));
+        given != reading.entries.end() ? given->second : reading.entries.at(table_path(problem.key));
     if (problem.file.empty()) {
       complain(reading, problem.key, at,
                {problem.kind, std::move(problem.problem), std::move(problem.remedy)});

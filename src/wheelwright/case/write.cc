@@ -17,7 +17,7 @@ namespace wheelwright {
 
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\')
@@ -66,14 +66,14 @@ std::string value_text(const IntegerField<Struct>& field, const Struct& s) {
 template <class Struct>
 std::string value_text(const OptionalIntegerField<Struct>& field, const Struct& s) {
   const auto& value = field.member.in(s);
-  if (!value) return field.default_word.empty() ? "" : quoted(field.default_word);
+  if (!value) return field.default_word.empty() ? "" : in_quotes(field.default_word);
   return fmt::format("{}", *value);
 }
 
 template <class Struct>
 std::string value_text(const TextField<Struct>& field, const Struct& s) {
   const std::string& value = field.member.in(s);
-  return value.empty() && !field.default_text.empty() ? "" : quoted(value);
+  return value.empty() && !field.default_text.empty() ? "" : in_quotes(value);
 }
 
 template <class Struct>
@@ -98,12 +98,12 @@ std::string value_text(const PointsField<Struct>& field, const Struct& s) {
 
 template <class Struct>
 std::string value_text(const ChoiceField<Struct>& field, const Struct& s) {
-  return quoted(field.words[field.get(s)]);
+  return in_quotes(field.words[field.get(s)]);
 }
 
 template <class Struct>
 std::string value_text(const QuantityField<Struct>& field, const Struct& s) {
-  return quoted(name(field.member.in(s)));
+  return in_quotes(name(field.member.in(s)));
 }
 
 template <class Struct>
@@ -121,7 +121,8 @@ std::string accepted_text(const Key<Struct>& key) {
         else if constexpr (requires { field.built_in_words(); })
           return fmt::format("\"{}\"", fmt::join(field.built_in_words(), "\" or \""));
         else if constexpr (requires { field.default_word; })
-          return (field.default_word.empty() ? "" : quoted(field.default_word) + " or ") + field.range.text();
+          return (field.default_word.empty() ? "" : in_quotes(field.default_word) + " or ") +
+                 field.range.text();
         else if constexpr (requires { field.range; })
           return field.range.text();
         else

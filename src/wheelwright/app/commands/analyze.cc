@@ -27,7 +27,7 @@ namespace {
 constexpr const char* result_file = "analysis.json";
 
 /// All files that are written to the folder: add the names of new files here.
-constexpr std::string_view names_in_folder[] = {
+constexpr std::string_view files_of_analysis[] = {
     "analysis.json", "travel.svg", "force.svg",  "peak_pressure.svg",  "pressures.svg",    "pressures.csv",
     "loads.svg",     "mesh.svg",   "stress.svg", "stress_contact.svg", "displacement.svg", "pressure.svg"};
 
@@ -98,7 +98,7 @@ class AnalyzeCommand : public Subcommand {
   int run() override {
     auto wheel = read_wheel_or_report(input_, {name(), threads_, positions_});
     if (!wheel) return wheel.failure();
-    if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
+    if (output_ && !may_write_to(*output_, files_of_analysis)) return exit_refused;
     if (!take_load_case(*wheel)) return exit_refused;
     return std::visit([this](const auto& input) { return analyze(input); }, *wheel);
   }

@@ -15,7 +15,7 @@ namespace wheelwright {
 namespace {
 
 /// All files that are written to the folder: add the names of new files here.
-constexpr std::string_view names_in_folder[] = {"comparison.txt", "comparison.json", "comparison.svg"};
+constexpr std::string_view files_of_comparison[] = {"comparison.txt", "comparison.json", "comparison.svg"};
 
 /// Solves a wheel at its load positions.
 Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
@@ -56,7 +56,7 @@ class CompareCommand : public Subcommand {
       if (!wheel) return wheel.failure();
       wheels.push_back(*std::move(wheel));
     }
-    if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
+    if (output_ && !may_write_to(*output_, files_of_comparison)) return exit_refused;
     return compare(wheels);
   }
 

@@ -25,13 +25,13 @@ struct Place {
 };
 
 /// A point of an edge.
-struct EdgePoint {
+struct DirectedPoint {
   Place place;
   Vec<2> position;
   Vec<2> normal;  ///< unit, into the material
 };
 
-EdgePoint edge_point(const Outline& outline, const Place& place) {
+DirectedPoint edge_point(const Outline& outline, const Place& place) {
   const CurvePoint point = at(outline.loops[place.loop].curves[place.curve], place.parameter);
   return {place, point.position, left_of(point.velocity) / norm(point.velocity)};
 }
@@ -47,26 +47,26 @@ Place end_of_previous(const Outline& outline, const Place& place) {
 }
 
 /// Angle by which the direction turns from one place to another that is at the same point.
-double turn(const EdgePoint& before, const EdgePoint& after) {
+double turn(const DirectedPoint& before, const DirectedPoint& after) {
   return std::atan2(cross(before.normal, after.normal), dot(before.normal, after.normal));
 }
 
 /// The point at the begin of a curve, with all directions between the normals on either side if there is a
 /// corner: a circle may touch it in any of them.
-std::vector<EdgePoint> begin_points(const Outline& outline, const Place& begin) {
+std::vector<DirectedPoint> begin_points(const Outline& outline, const Place& begin) {
   constexpr double step = 5 * std::numbers::pi / 180;
-  const EdgePoint before = edge_point(outline, end_of_previous(outline, begin)),
-                  after = edge_point(outline, begin);
+  const DirectedPoint before = edge_point(outline, end_of_previous(outline, begin)),
+                      after = edge_point(outline, begin);
   const double angle = turn(before, after);
   const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(angle) / step)));
-  std::vector<EdgePoint> points(parts, after);
+  std::vector<DirectedPoint> points(parts, after);
   for (int i = 1; i < parts; ++i)
     points[i].normal = wheelwright::rotated<2>(before.normal, angle * i / parts);
   return points;
 }
 
-std::vector<EdgePoint> walk(const Outline& outline, double step) {
-  std::vector<EdgePoint> points;
+std::vector<DirectedPoint> walk(const Outline& outline, double step) {
+  std::vector<DirectedPoint> points;
   for (int loop = 0; loop < static_cast<int>(outline.loops.size()); ++loop) {
     const auto& curves = outline.loops[loop].curves;
     for (int curve = 0; curve < static_cast<int>(curves.size()); ++curve) {
@@ -80,9 +80,9 @@ std::vector<EdgePoint> walk(const Outline& outline, double step) {
   return points;
 }
 
-std::vector<Vec<2>> positions(const std::vector<EdgePoint>& points) {
+std::vector<Vec<2>> positions(const std::vector<DirectedPoint>& points) {
   std::vector<Vec<2>> result;
-  for (const EdgePoint& point : points) result.push_back(point.position);
+  for (const DirectedPoint& point : points) result.push_back(point.position);
   return result;
 }
 
@@ -115,7 +115,7 @@ Vec<2> acceleration(const Curve& curve, double parameter) {
 
 /// Moves a place towards the point of its loop that is nearest to a target, at most to the end of its curve
 /// and from there to the next one. Whether it moved.
-bool approach(const Outline& outline, EdgePoint& edge, const Vec<2>& target) {
+bool approach(const Outline& outline, DirectedPoint& edge, const Vec<2>& target) {
   Place place = edge.place;
   const Curve& curve = outline.loops[place.loop].curves[place.curve];
   const CurvePoint p = at(curve, place.parameter);
@@ -134,7 +134,7 @@ bool approach(const Outline& outline, EdgePoint& edge, const Vec<2>& target) {
 
 /// Whether a path in this direction leaves the edge normally, as at the end of a shortest path. At a corner
 /// any direction between the normals is allowed.
-bool is_straight(const Outline& outline, const EdgePoint& edge, const Vec<2>& direction) {
+bool is_straight(const Outline& outline, const DirectedPoint& edge, const Vec<2>& direction) {
   constexpr double cosine = 0.985;  // of ten degrees
   const Place& place = edge.place;
   double corner = 0;
@@ -145,7 +145,7 @@ bool is_straight(const Outline& outline, const EdgePoint& edge, const Vec<2>& di
 }
 
 /// The neck about two places, if there is one.
-std::optional<Clearance> neck(const Outline& outline, EdgePoint from, EdgePoint to) {
+std::optional<Clearance> neck(const Outline& outline, DirectedPoint from, DirectedPoint to) {
   constexpr int steps = 60;
   constexpr double least_share = 0.5;
   const double before = distance(from.position, to.position);
@@ -168,7 +168,7 @@ class Search {
         points_(walk(outline, step)),
         edges_(positions(points_)),
         sector_(2 * std::numbers::pi / n_sectors) {
-    for (const EdgePoint& point : points_) reach_ = std::max(reach_, 2 * norm(point.position));
+    for (const DirectedPoint& point : points_) reach_ = std::max(reach_, 2 * norm(point.position));
   }
 
   std::optional<Clearance> thinnest_wall() const {
@@ -196,7 +196,7 @@ class Search {
   /// The circle at a point, `point` being the nearest of those that were walked along; nothing if it touches
   /// no other point. `side`: 1 in the material, -1 in the voids. `likely`: a radius like that of a neighbour;
   /// it saves the search among far points.
-  std::optional<Circle> circle_at(const EdgePoint& p, int point, double side, double likely) const {
+  std::optional<Circle> circle_at(const DirectedPoint& p, int point, double side, double likely) const {
     constexpr double growth = 1.25;
     const Vec<2> n = side * p.normal;
     auto circle = touching_circle(edges_, p.position, n, std::min(growth * likely, reach_));
@@ -234,7 +234,7 @@ class Search {
       step /= 2;
       for (const double parameter : {place.parameter - step, place.parameter + step}) {
         if (parameter < 0 || parameter > 1) continue;
-        const EdgePoint moved = edge_point(outline_, {place.loop, place.curve, parameter});
+        const DirectedPoint moved = edge_point(outline_, {place.loop, place.curve, parameter});
         const auto other = circle_at(moved, circle.point, -1, circle.radius);
         if (!other || other->radius <= circle.radius) continue;
         circle = *other;
@@ -272,7 +272,7 @@ class Search {
 
   /// One representative sector: the part of circles about the axle in it, and the other loops that start in
   /// it.
-  bool is_first_image(const EdgePoint& point) const {
+  bool is_first_image(const DirectedPoint& point) const {
     const Loop& loop = outline_.loops[point.place.loop];
     const bool about_axle = loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::bore;
     return in_first_sector(about_axle ? point.position : start_of(loop.curves.front()));
@@ -288,7 +288,7 @@ class Search {
 
   const Outline& outline_;
   double step_;
-  std::vector<EdgePoint> points_;
+  std::vector<DirectedPoint> points_;
   NearestPoint<2> edges_;
   double sector_, reach_ = 0;
 };

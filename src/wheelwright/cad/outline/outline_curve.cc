@@ -11,20 +11,20 @@
 namespace wheelwright::cad {
 namespace {
 
-constexpr int degree = 3;
-
 Vec<2> on_circle(const Arc& arc, double azimuth) {
   return arc.centre + arc.radius * Vec<2>{std::cos(azimuth), std::sin(azimuth)};
 }
 
-int n_spans(const Spline& spline) { return static_cast<int>(spline.points.size()) - degree; }
+int n_spans(const Spline& spline) { return static_cast<int>(spline.points.size()) - Spline::degree; }
 
 Bezier bezier_of_span(const Spline& spline, int span) {
   Bezier points;
-  std::copy_n(spline.points.begin() + span, degree + 1, points.begin());
-  const std::span knots(&spline.knots[span + 1], 2 * degree);
-  const double a = knots[degree - 1], b = knots[degree];
-  const auto point = [&](std::array<double, degree> arguments) { return blossom(points, knots, arguments); };
+  std::copy_n(spline.points.begin() + span, Spline::degree + 1, points.begin());
+  const std::span knots(&spline.knots[span + 1], 2 * Spline::degree);
+  const double a = knots[Spline::degree - 1], b = knots[Spline::degree];
+  const auto point = [&](std::array<double, Spline::degree> arguments) {
+    return blossom(points, knots, arguments);
+  };
   return {point({a, a, a}), point({a, a, b}), point({a, b, b}), point({b, b, b})};
 }
 
@@ -81,7 +81,7 @@ CurvePoint at(const Curve& curve, double parameter) {
   const Spline& spline = std::get<Spline>(curve);
   const double whole = spline.knots.back() - spline.knots.front();
   const double u = spline.knots.front() + parameter * whole;
-  const auto first = spline.knots.begin() + degree, last = spline.knots.end() - degree - 1;
+  const auto first = spline.knots.begin() + Spline::degree, last = spline.knots.end() - Spline::degree - 1;
   const auto above = std::upper_bound(first + 1, last, u);
   const int span = static_cast<int>(above - first) - 1;
   const double low = *(above - 1), length = *above - low;

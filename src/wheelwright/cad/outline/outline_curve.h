@@ -24,6 +24,7 @@ struct Arc {
 /// A cubic B-spline with continuous curvature. The knots are clamped: the first and the last four are equal,
 /// and those between are simple.
 struct Spline {
+  static constexpr int degree = 3;
   std::vector<double> knots;
   std::vector<Vec<2>> points;  ///< control points
 };

@@ -13,7 +13,6 @@
 namespace wheelwright::cad {
 namespace {
 
-constexpr int degree = 3;
 /// Solutions of the linear problem, each followed by a correction of the parameters of the points.
 constexpr int n_corrections = 3;
 /// Where a spline nearly follows the points, the corrections lower the deviation by a few hundredths at most:
@@ -27,7 +26,7 @@ using Lanes = std::array<double, lanes>;
 /// Consecutive samples of one interval, with its four nonzero B-splines. Lanes without a sample are zero.
 struct Block {
   int first, n_samples;
-  std::array<Lanes, degree + 1> value, derivative;
+  std::array<Lanes, Spline::degree + 1> value, derivative;
 };
 
 /// Cubic splines with these breaks; of closed ones the last break is the first again, one period later.
@@ -36,7 +35,7 @@ class SplineSpace {
   SplineSpace(std::vector<double> breaks, bool closed) : breaks_(std::move(breaks)), closed_(closed) {
     const int n = n_intervals();
     const double period = breaks_.back() - breaks_.front();
-    for (int i = -degree; i <= n + degree; ++i) {
+    for (int i = -Spline::degree; i <= n + Spline::degree; ++i) {
       if (closed_) {
         const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
         knots_.push_back(breaks_[i - turns * n] + turns * period);
@@ -44,13 +43,14 @@ class SplineSpace {
         knots_.push_back(breaks_[std::clamp(i, 0, n)]);
       }
     }
-    for (int interval = 0; interval < n; ++interval) reciprocals_.push_back(reciprocals(interval + degree));
+    for (int interval = 0; interval < n; ++interval)
+      reciprocals_.push_back(reciprocals(interval + Spline::degree));
   }
 
   const std::vector<double>& breaks() const { return breaks_; }
   bool closed() const { return closed_; }
   int n_intervals() const { return static_cast<int>(breaks_.size()) - 1; }
-  int n_points() const { return closed_ ? n_intervals() : n_intervals() + degree; }
+  int n_points() const { return closed_ ? n_intervals() : n_intervals() + Spline::degree; }
   int point_of(int function) const {
     return closed_ && function >= n_intervals() ? function - n_intervals() : function;
   }
@@ -68,8 +68,8 @@ class SplineSpace {
     Lanes u{};
     std::ranges::copy(parameters, u.begin());
     std::fill_n(block.value[0].begin(), parameters.size(), 1.0);
-    for (int p = 1; p <= degree; ++p) {
-      if (p == degree) add_derivatives(interval, block);
+    for (int p = 1; p <= Spline::degree; ++p) {
+      if (p == Spline::degree) add_derivatives(interval, block);
       raise_degree(p, interval, u, block);
     }
     return block;
@@ -78,40 +78,41 @@ class SplineSpace {
   /// The spline with these control points, clamped.
   Spline clamped(const std::vector<Vec<2>>& points) const {
     Spline spline;
-    spline.knots.assign(degree, breaks_.front());
+    spline.knots.assign(Spline::degree, breaks_.front());
     spline.knots.insert(spline.knots.end(), breaks_.begin(), breaks_.end());
-    spline.knots.insert(spline.knots.end(), degree, breaks_.back());
+    spline.knots.insert(spline.knots.end(), Spline::degree, breaks_.back());
     if (!closed_) {
       spline.points = points;
       return spline;
     }
     const int n = n_intervals();
-    for (int i = 0; i < n + degree; ++i) {
+    for (int i = 0; i < n + Spline::degree; ++i) {
       const int interval = std::clamp(i - 1, 0, n - 1);  // one that touches the knots of this control point
-      std::array<Vec<2>, degree + 1> around;
-      for (int k = 0; k <= degree; ++k) around[k] = points[point_of(interval + k)];
-      spline.points.push_back(blossom(around, std::span(&knots_[interval + 1], 2 * degree),
-                                      std::span(&spline.knots[i + 1], degree)));
+      std::array<Vec<2>, Spline::degree + 1> around;
+      for (int k = 0; k <= Spline::degree; ++k) around[k] = points[point_of(interval + k)];
+      spline.points.push_back(blossom(around, std::span(&knots_[interval + 1], 2 * Spline::degree),
+                                      std::span(&spline.knots[i + 1], Spline::degree)));
     }
     spline.points.back() = spline.points.front();
     return spline;
   }
 
  private:
-  /// One over the widths of the functions of degree p - 1 that are not zero in an interval: [p - 1][r], r <
-  /// p.
-  using Reciprocals = std::array<std::array<double, degree>, degree>;
+  /// One over the widths of the functions of Spline::degree p - 1 that are not zero in an interval: [p -
+  /// 1][r], r < p.
+  using Reciprocals = std::array<std::array<double, Spline::degree>, Spline::degree>;
 
   Reciprocals reciprocals(int k) const {
     Reciprocals result{};
-    for (int p = 1; p <= degree; ++p)
+    for (int p = 1; p <= Spline::degree; ++p)
       for (int r = 0; r < p; ++r) result[p - 1][r] = 1 / (knots_[k + r + 1] - knots_[k + 1 - p + r]);
     return result;
   }
 
-  /// From the functions of degree p - 1 to those of degree p, by the recursion of Cox and de Boor.
+  /// From the functions of Spline::degree p - 1 to those of Spline::degree p, by the recursion of Cox and de
+  /// Boor.
   void raise_degree(int p, int interval, const Lanes& u, Block& block) const {
-    const int k = interval + degree;
+    const int k = interval + Spline::degree;
     Lanes saved{};
     for (int r = 0; r < p; ++r) {
       const double by_width = reciprocals_[interval][p - 1][r];
@@ -128,8 +129,8 @@ class SplineSpace {
 
   /// Derivatives of the cubics from the values of the quadratics.
   void add_derivatives(int interval, Block& block) const {
-    for (int r = 0; r < degree; ++r) {
-      const double factor = degree * reciprocals_[interval][degree - 1][r];
+    for (int r = 0; r < Spline::degree; ++r) {
+      const double factor = Spline::degree * reciprocals_[interval][Spline::degree - 1][r];
       for (int l = 0; l < lanes; ++l) {
         const double part = block.value[r][l] * factor;
         block.derivative[r][l] -= part;
@@ -164,8 +165,8 @@ Samples by_arc_length(std::span<const Vec<2>> points, bool closed) {
 
 /// The contribution of one interval's samples to the normal equations, by its four nonzero B-splines.
 struct Sums {
-  std::array<std::array<double, degree + 1>, degree + 1> products;  ///< lower triangle
-  std::array<std::array<double, 2>, degree + 1> targets;
+  std::array<std::array<double, Spline::degree + 1>, Spline::degree + 1> products;  ///< lower triangle
+  std::array<std::array<double, 2>, Spline::degree + 1> targets;
 };
 
 /// Consecutive samples of one interval.
@@ -214,21 +215,21 @@ bool is_free(const SplineSpace& space, int point) {
 
 Sums sums_of(const SplineSpace& space, int interval, const std::vector<Block>& blocks,
              std::span<const Vec<2>> points) {
-  std::array<std::array<Lanes, degree + 1>, degree + 1> products{};
-  std::array<std::array<Lanes, 2>, degree + 1> targets{};
+  std::array<std::array<Lanes, Spline::degree + 1>, Spline::degree + 1> products{};
+  std::array<std::array<Lanes, 2>, Spline::degree + 1> targets{};
   for (const Block& block : blocks) {
     std::array<Lanes, 2> wanted = coordinates(block, points);
-    for (int i = 0; i <= degree; ++i)
+    for (int i = 0; i <= Spline::degree; ++i)
       if (const int a = space.point_of(interval + i); !is_free(space, a))
         for (int d = 0; d < 2; ++d)
           add(-(a == 0 ? points.front() : points.back())[d], block.value[i], wanted[d]);
-    for (int i = 0; i <= degree; ++i) {
+    for (int i = 0; i <= Spline::degree; ++i) {
       for (int j = 0; j <= i; ++j) add_product(block.value[i], block.value[j], products[i][j]);
       for (int d = 0; d < 2; ++d) add_product(block.value[i], wanted[d], targets[i][d]);
     }
   }
   Sums sums;
-  for (int i = 0; i <= degree; ++i) {
+  for (int i = 0; i <= Spline::degree; ++i) {
     for (int j = 0; j <= i; ++j) sums.products[i][j] = total(products[i][j]);
     for (int d = 0; d < 2; ++d) sums.targets[i][d] = total(targets[i][d]);
   }
@@ -276,7 +277,7 @@ Groups groups_without(int removed_break, const Groups& groups, const SplineSpace
     const int interval = old.interval < removed_break ? old.interval : old.interval - 1;
     if (!result.empty() && result.back().interval == interval) continue;  // both halves of the merged one
     const int away = std::abs(interval - merged);
-    const bool is_affected = away <= degree || (space.closed() && n - away <= degree);
+    const bool is_affected = away <= Spline::degree || (space.closed() && n - away <= Spline::degree);
     if (is_affected)
       result.push_back(group_of(space, interval, samples, index_of(interval), index_of(interval + 1)));
     else
@@ -292,11 +293,11 @@ std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::
   const int fixed = space.closed() ? 0 : 1, n_free = space.n_points() - 2 * fixed;
   Matrix matrix(n_free, n_free), right(n_free, 2);
   for (const auto& [interval, group] : groups)
-    for (int i = 0; i <= degree; ++i) {
+    for (int i = 0; i <= Spline::degree; ++i) {
       const int a = space.point_of(interval + i);
       if (!is_free(space, a)) continue;
       for (int d = 0; d < 2; ++d) right(a - fixed, d) += group->sums.targets[i][d];
-      for (int j = 0; j <= degree; ++j)
+      for (int j = 0; j <= Spline::degree; ++j)
         if (const int b = space.point_of(interval + j); is_free(space, b))
           matrix(a - fixed, b - fixed) += group->sums.products[std::max(i, j)][std::min(i, j)];
     }
@@ -321,7 +322,7 @@ struct Misses {
 
 Misses misses(const Fit& fit, int interval, const Block& block, std::span<const Vec<2>> points) {
   std::array<Lanes, 2> miss = coordinates(block, points), velocity{};
-  for (int i = 0; i <= degree; ++i) {
+  for (int i = 0; i <= Spline::degree; ++i) {
     const Vec<2>& p = fit.control[fit.space.point_of(interval + i)];
     for (int d = 0; d < 2; ++d) {
       add(-p[d], block.value[i], miss[d]);

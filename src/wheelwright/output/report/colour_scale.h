@@ -27,6 +27,9 @@ struct ColourScale {
   double fraction(double value) const { return upper > lower ? (value - lower) / (upper - lower) : 0.5; }
 };
 
+/// The usual share of values beyond a scale without tail.
+inline constexpr double usual_outliers = 0.01;
+
 /// Spans the finite values, except for that fraction of them at each end.
 ColourScale colour_scale(std::span<const double> values, double outliers);
 

@@ -21,7 +21,6 @@ constexpr double foot = 36;  // [pixels]
 constexpr int units_per_pixel = 10;
 constexpr double point_tolerance = 0.12 * units_per_pixel;
 constexpr int parts_of_cell = 2, parts_in_window = 4;  // along each axis
-constexpr double outliers = 0.01;                      // fraction of the pieces beyond a scale without tail
 
 /// The whole wheel with room for the ground and for bulges, or a square with the ground near its lower edge.
 PictureView view_of(const PolarGrid<2>& grid, const std::optional<double>& window) {
@@ -60,7 +59,7 @@ std::vector<DrawnPiece> shown_pieces(const DeformedMaterial& material, const Def
 ColourScale scale_of(const std::vector<DrawnPiece>& pieces, ScaleKind kind) {
   std::vector<double> values;
   for (const DrawnPiece& p : pieces) values.push_back(mean_scalar(p));
-  if (kind == ScaleKind::without_tail) return colour_scale_from_zero(values, outliers);
+  if (kind == ScaleKind::without_tail) return colour_scale_from_zero(values, usual_outliers);
   for (const DrawnPiece& p : pieces)
     for (const DrawnPoint& point : p) values.push_back(point.scalar);
   return colour_scale(values, 0);

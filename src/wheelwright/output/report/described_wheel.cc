@@ -46,14 +46,10 @@ constexpr double curve_tolerance = 3e-5;
 /// A number of a wheel; nothing if the wheel cannot have one.
 using Number = std::optional<KnownNumber>;
 
-std::string reason(const Failure& failure) {
-  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
-}
-
 /// A value of the wheel under its load.
 template <int dim, class Value>
 Number under_load(const DescribedWheel<dim>& wheel, const Value& value) {
-  if (!wheel.loaded) return reason(wheel.loaded.failure());
+  if (!wheel.loaded) return to_string(wheel.loaded.failure());
   return value(*wheel.loaded);
 }
 
@@ -63,7 +59,7 @@ Number of_curve(const DescribedWheel<dim>& wheel, Expected<std::vector<double>> 
                 double factor, const Value& value) {
   return under_load(wheel, [&](const LoadedWheel<dim>& loaded) -> Number {
     const auto& values = loaded.rolling.*curve;
-    if (!values) return reason(values.failure());
+    if (!values) return to_string(values.failure());
     return factor * value(*values);
   });
 }

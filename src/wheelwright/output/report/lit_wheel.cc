@@ -15,10 +15,9 @@ namespace wheelwright {
 namespace {
 
 using P = DeformedLayout;
-constexpr double foot = 64;         // [pixels]
-constexpr int image_pixels = 1040;  // for screens with several pixels per unit of the picture
-constexpr double outliers = 0.01;   // fraction of the vertices beyond a scale without tail
-constexpr double half_view = 1.1;   // over the wheel's radius
+constexpr double caption_height = 64;  // [pixels]
+constexpr int image_pixels = 1040;     // for screens with several pixels per unit of the picture
+constexpr double half_view = 1.1;      // over the wheel's radius
 
 /// How far magnified displacements move the tread below the ground, if there is one, at the displacement's
 /// nodes there.
@@ -73,7 +72,7 @@ std::vector<Rgb> colours(const std::vector<float>& values, const ColourScale& sc
 
 ColourScale scale_of(const std::vector<float>& values, ScaleKind kind) {
   const std::vector<double> all(values.begin(), values.end());
-  return kind == ScaleKind::without_tail ? colour_scale_from_zero(all, outliers) : colour_scale(all, 0);
+  return kind == ScaleKind::without_tail ? colour_scale_from_zero(all, usual_outliers) : colour_scale(all, 0);
 }
 
 /// A rectangle of ground under the wheel.
@@ -93,7 +92,7 @@ std::string peak_text(const DeformedPicture<3>& picture) {
   return fmt::format(
       "<text x=\"{}\" y=\"{}\">largest {}: {} at radius {:.1f} mm, azimuth {:.2f}\u00b0, z = {:.1f} "
       "mm</text>\n",
-      P::margin, P::top + P::wheel_size + foot - 36, escape_xml(picture.scalar.name),
+      P::margin, P::top + P::wheel_size + caption_height - 36, escape_xml(picture.scalar.name),
       value_text(picture.peak->value, escape_xml(picture.scalar.unit)), 1e3 * std::hypot(x[0], x[1]),
       std::atan2(x[1], x[0]) * 180 / std::numbers::pi, 1e3 * x[2]);
 }
@@ -157,7 +156,8 @@ std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
       picture,
       fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n", P::margin,
                   P::top, P::wheel_size, data_url(image)),
-      scale, foot, peak_text(picture) + (is_pressed ? footnote(picture.magnification, foot) : ""));
+      scale, caption_height,
+      peak_text(picture) + (is_pressed ? footnote(picture.magnification, caption_height) : ""));
 }
 
 }  // namespace wheelwright

@@ -15,9 +15,9 @@
 namespace wheelwright {
 namespace {
 
-constexpr double box_width = 560, box_height = 300, left = 90, top = 90, bar_space = 170,
-                 foot = 70;  // [pixels]
-constexpr int max_ticks = 6;
+constexpr double box_width = 560, box_height = 300, box_left = 90, box_top = 90, bar_space = 170,
+                 box_foot = 70;  // [pixels]
+constexpr int max_axis_ticks = 6;
 
 /// Contact points at one place along the axle, in order along the ground.
 using Line = std::vector<ContactPoint>;
@@ -47,10 +47,10 @@ struct MapView {
   double half_width, half_length;
 
   double x(double along_axle) const {
-    return left + (along_axle + half_width) * box_width / (2 * half_width);
+    return box_left + (along_axle + half_width) * box_width / (2 * half_width);
   }
   double y(double along_ground) const {
-    return top + (half_length - along_ground) * box_height / (2 * half_length);
+    return box_top + (half_length - along_ground) * box_height / (2 * half_length);
   }
 };
 
@@ -83,20 +83,20 @@ std::string rectangles(const std::vector<Line>& all, const MapView& view, const 
 }
 
 std::string axes(const MapView& view) {
-  constexpr double mm = 1e3, bottom = top + box_height;
+  constexpr double mm = 1e3, bottom = box_top + box_height;
   std::string svg =
       fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#24292f\"/>\n",
-                  left, top, box_width, box_height);
-  for (const double tick : axis_ticks(-view.half_width * mm, view.half_width * mm, max_ticks))
+                  box_left, box_top, box_width, box_height);
+  for (const double tick : axis_ticks(-view.half_width * mm, view.half_width * mm, max_axis_ticks))
     svg += fmt::format(
         "<path stroke=\"#24292f\" d=\"M{0:.2f} {1}v5\"/>"
         "<text x=\"{0:.2f}\" y=\"{2}\" text-anchor=\"middle\">{3:.6g}</text>\n",
         view.x(tick / mm), bottom, bottom + 20, tick + 0.0);
-  for (const double tick : axis_ticks(-view.half_length * mm, view.half_length * mm, max_ticks))
+  for (const double tick : axis_ticks(-view.half_length * mm, view.half_length * mm, max_axis_ticks))
     svg += fmt::format(
         "<path stroke=\"#24292f\" d=\"M{0} {1:.2f}h-5\"/>"
         "<text x=\"{2}\" y=\"{3:.2f}\" text-anchor=\"end\">{4:.6g}</text>\n",
-        left, view.y(tick / mm), left - 9, view.y(tick / mm) + 5, tick + 0.0);
+        box_left, view.y(tick / mm), box_left - 9, view.y(tick / mm) + 5, tick + 0.0);
   return svg +
          fmt::format(
              "<text x=\"{:.2f}\" y=\"{}\" text-anchor=\"middle\">along the axle, from the middle of the "
@@ -104,7 +104,7 @@ std::string axes(const MapView& view) {
              "[mm]</text>\n"
              "<text transform=\"translate({} {:.2f}) rotate(-90)\" text-anchor=\"middle\">along the ground "
              "[mm]</text>\n",
-             view.x(0), bottom + 44, left - 56, view.y(0));
+             view.x(0), bottom + 44, box_left - 56, view.y(0));
 }
 
 }  // namespace
@@ -121,8 +121,8 @@ std::string pressure_map_svg(const std::string& title, const PolarGrid<3>& grid,
   const MapView view = view_of(grid, points);
   const ColourScale scale = colour_scale_from_zero(pressures, 0);
   const double peak = pressures.empty() ? 0 : std::ranges::max(pressures);
-  const double bar_x = left + box_width + 40, width = bar_x + bar_space,
-               height = top + box_height + foot + 20;
+  const double bar_x = box_left + box_width + 40, width = bar_x + bar_space,
+               height = box_top + box_height + box_foot + 20;
   return fmt::format(
              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
@@ -135,7 +135,7 @@ std::string pressure_map_svg(const std::string& title, const PolarGrid<3>& grid,
              "\u00b7 force of the ground {5:.5g} N</text>\n",
              width, height, escape_xml(title), value_text(peak, "Pa"), area * 1e6, force) +
          rectangles(lines(points), view, scale) + axes(view) +
-         colour_bar(scale, "contact pressure", "Pa", bar_x, top + box_height + 60) + "</svg>\n";
+         colour_bar(scale, "contact pressure", "Pa", bar_x, box_top + box_height + 60) + "</svg>\n";
 }
 
 }  // namespace wheelwright

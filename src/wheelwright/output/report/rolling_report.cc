@@ -29,10 +29,6 @@ Expected<RollingVariation> variation(const Expected<std::vector<double>>& values
   return rolling_variation(*values);
 }
 
-std::string reason(const Failure& failure) {
-  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
-}
-
 std::vector<double> peak_pressures(const std::vector<ContactSummary>& positions) {
   std::vector<double> result;
   for (const ContactSummary& position : positions) result.push_back(position.peak_pressure);
@@ -154,11 +150,12 @@ std::string variation_lines(const RollingReport& report) {
 std::string missing_lines(const RollingReport& report) {
   std::string lines;
   for (const ShownQuantity& q : quantities(report))
-    if (!q.variation) lines += fmt::format("not computed: {}: {}\n", q.name, reason(q.variation.failure()));
+    if (!q.variation)
+      lines += fmt::format("not computed: {}: {}\n", q.name, to_string(q.variation.failure()));
   for (size_t k = 0; k < report.loads.size(); ++k)
     if (!report.under_loads[k])
       lines += fmt::format("not computed: load {:.6g} N: {}\n", report.loads[k] * forces(report),
-                           reason(report.under_loads[k].failure()));
+                           to_string(report.under_loads[k].failure()));
   return lines;
 }
 
@@ -237,7 +234,7 @@ Json loads_json(const RollingReport& report) {
   for (size_t k = 0; k < report.loads.size(); ++k) {
     const double load = report.loads[k] * forces(report);
     if (!report.under_loads[k]) {
-      loads.push_back({{"load_N", load}, {"missing", reason(report.under_loads[k].failure())}});
+      loads.push_back({{"load_N", load}, {"missing", to_string(report.under_loads[k].failure())}});
       continue;
     }
     Json positions = Json::array();
@@ -300,8 +297,8 @@ std::string rolling_json(const RollingReport& report) {
             {"travel_at_load_m", variation(all[0], 1)},
             {"force_at_travel_N", variation(all[1], forces(report))},
             {"peak_pressure_Pa", variation(all[2], 1)}};
-  if (!a.travel_at_load) json["missing"]["travel_at_load_m"] = reason(a.travel_at_load.failure());
-  if (!a.force_at_travel) json["missing"]["force_at_travel_N"] = reason(a.force_at_travel.failure());
+  if (!a.travel_at_load) json["missing"]["travel_at_load_m"] = to_string(a.travel_at_load.failure());
+  if (!a.force_at_travel) json["missing"]["force_at_travel_N"] = to_string(a.force_at_travel.failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
   return json.dump(2) + '\n';
 }

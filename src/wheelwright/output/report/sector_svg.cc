@@ -15,7 +15,6 @@ namespace wheelwright {
 namespace {
 
 constexpr int colour_levels = 33;  // odd: one of them is 0
-constexpr double outliers = 0.01;
 constexpr double bar_width = 18, bar_height = 320, bar_space = 150;
 
 std::string signed_colour(int level) { return blue_to_red(2.0 * level / (colour_levels - 1) - 1); }
@@ -37,7 +36,7 @@ SymmetricScale scale_of(const std::vector<double>& values) {
     if (std::isfinite(v)) magnitudes.push_back(std::abs(v));
   if (magnitudes.empty()) return {0, false};
   std::ranges::sort(magnitudes);
-  const auto last = magnitudes.size() - 1 - static_cast<std::size_t>(outliers * magnitudes.size());
+  const auto last = magnitudes.size() - 1 - static_cast<std::size_t>(usual_outliers * magnitudes.size());
   return {magnitudes[last], magnitudes.back() > magnitudes[last]};
 }
 

@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t version = 9;
+constexpr std::uint32_t format_version = 9;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -375,7 +375,7 @@ std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
   run.integer(finished ? static_cast<int>(*finished) : -1);
   run.number(tolerance);
   append(found, run);
-  return block_file(file_kind, version,
+  return block_file(file_kind, format_version,
                     {{"CASE", origin.bytes()},
                      {"STAT", current.bytes()},
                      {"INIT", first.bytes()},
@@ -385,7 +385,8 @@ std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
 
 template <int dim>
 Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view bytes) {
-  const auto blocks = parse_block_file(bytes, file_kind, version, {"CASE", "STAT", "INIT", "HOLE", "RUN "});
+  const auto blocks =
+      parse_block_file(bytes, file_kind, format_version, {"CASE", "STAT", "INIT", "HOLE", "RUN "});
   if (!blocks) return blocks.failure();
   ByteReader origin((*blocks)[0]), current((*blocks)[1]), first((*blocks)[2]), holes((*blocks)[3]),
       run((*blocks)[4]);

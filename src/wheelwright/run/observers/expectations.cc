@@ -18,10 +18,6 @@ std::optional<double> named_value(const std::vector<NamedValue>& values, std::st
   return found == values.end() ? std::nullopt : std::optional(found->value);
 }
 
-std::string why(const Failure& failure) {
-  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
-}
-
 /// Nothing unless it is measured on the curves fitted to the edges.
 template <int dim>
 std::optional<KnownNumber> on_outline(const Quantity& quantity, const LevelSet<dim>& shape) {
@@ -43,7 +39,7 @@ KnownNumber computed(const Quantity& quantity, const StateSolver<dim>& solver, c
                      const State<dim>& solution) {
   if (quantity->compares_with_mean) return std::string("runs compute it only as a term of the objective");
   const auto term = functional_of(quantity, quantity->usual, QuantityContext<dim>{solver});
-  if (!term) return why(term.failure());
+  if (!term) return to_string(term.failure());
   const FunctionalValue<dim> value = term->functional->evaluate(solver, shape, solution, {});
   return term->weight * value.over_positions.value_or(value.of_shape);
 }
@@ -72,7 +68,7 @@ KnownNumber value_under(const std::string& in_history, const Quantity& quantity,
   if (const auto functional = named_value(evaluation.terms, in_history)) return *functional;
   if (const auto measure = named_value(evaluation.measures, in_history)) return *measure;
   if (const auto measured = on_outline(quantity, state.shape)) return *measured;
-  if (!solution) return why(solution.failure());
+  if (!solution) return to_string(solution.failure());
   if (quantity == built_in("peak_von_mises")) return std::ranges::max((*solution)->strain_peaks().von_mises);
   if (quantity == built_in("largest_strain")) return std::ranges::max((*solution)->strain_peaks().principal);
   return computed(quantity, solver, state.shape, **solution);

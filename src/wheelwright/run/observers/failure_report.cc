@@ -19,7 +19,7 @@ namespace wheelwright {
 template <int dim>
 std::string failure_headline(const OptimizationState<dim>* last, std::span<const Trial<dim>> trials) {
   const Trial<dim>& trial = trials.back();
-  const std::string why = fmt::format("{}: {}", to_string(trial.failure->reason), trial.failure->detail);
+  const std::string why = to_string(*trial.failure);
   if (!last) return "the initial shape cannot be computed with: " + why;
   return fmt::format("gave up at shape {}: none of {} trial shapes could be computed; the last: {}",
                      trial.iteration, trials.size(), why);
@@ -59,10 +59,9 @@ std::string report(const RunEnded<dim>& failure, const RunView<dim>& run) {
                         failure.state->evaluation.function("objective").value * shown.factor, shown.name,
                         volume_fraction(grid, failure.state->measure));
   for (const Trial<dim>& trial : failure.failed_trials)
-    text += fmt::format("trial {} of shape {}: step {:.4g} cells = {:.4g} mm, volume {:.6f}: {}: {}\n",
+    text += fmt::format("trial {} of shape {}: step {:.4g} cells = {:.4g} mm, volume {:.6f}: {}\n",
                         trial.halvings, trial.iteration, trial.step, 1e3 * trial.step * grid.resolution(),
-                        volume_fraction(grid, material_measure(trial.shape)),
-                        to_string(trial.failure->reason), trial.failure->detail);
+                        volume_fraction(grid, material_measure(trial.shape)), to_string(*trial.failure));
   return text +
          "\n"
          "rejected.svg        the shape that failed last; in 3D its mid-plane\n"

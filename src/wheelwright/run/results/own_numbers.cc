@@ -8,16 +8,12 @@
 namespace wheelwright {
 namespace {
 
-std::string why(const Failure& failure) {
-  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
-}
-
 template <int dim>
 KnownNumber own_number(const Quantity& quantity, const Case& c, const StateSolver<dim>& solver,
                        const LevelSet<dim>& shape, const SolvedStates<dim>& states) {
-  if (!states) return why(states.failure());
+  if (!states) return to_string(states.failure());
   const auto term = functional_of(quantity, quantity->usual, quantity_context(c, solver));
-  if (!term) return why(term.failure());
+  if (!term) return to_string(term.failure());
   const Matrix mean =
       quantity->compares_with_mean ? mean_observations(solver.tread_surface(), **states) : Matrix();
   const FunctionalValue<dim> value = term->functional->evaluate(solver, shape, **states, mean);

@@ -28,7 +28,7 @@ std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& sta
 
 KnownNumber known(const Expected<double>& value) {
   if (value) return *value;
-  return fmt::format("{}: {}", to_string(value.failure().reason), value.failure().detail);
+  return to_string(value.failure());
 }
 
 }  // namespace

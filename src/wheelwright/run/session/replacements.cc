@@ -44,9 +44,7 @@ bool is_same_wheel(const PolarGrid<dim>& a, const PolarGrid<dim>& b) {
 
 }  // namespace
 
-Refusal refusal(const Failure& failure) {
-  return {fmt::format("{}: {}", to_string(failure.reason), failure.detail)};
-}
+Refusal refusal(const Failure& failure) { return {to_string(failure)}; }
 
 Expected<Case, Refusal> accepted_case(const Case& c, const std::filesystem::path& file) {
   CaseResult result = parse_case(to_toml(c), file, c.vocabulary);

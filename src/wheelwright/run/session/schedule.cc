@@ -9,10 +9,6 @@ namespace {
 
 bool is_interruption(const Failure& failure) { return failure.reason == FailureReason::interrupted; }
 
-std::string text(const Failure& failure) {
-  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
-}
-
 }  // namespace
 
 template <int dim>
@@ -26,7 +22,7 @@ Next Schedule<dim>::begin() {
       return Next::search;
     }
     if (is_interruption(stage.failure())) return Next::obey;
-    journal_.notify(StageFailed{grid_text(on_coarser_grid(source, level)), text(stage.failure())});
+    journal_.notify(StageFailed{grid_text(on_coarser_grid(source, level)), to_string(stage.failure())});
   }
   return Next::search;
 }
@@ -106,7 +102,7 @@ Next Schedule<dim>::without_more_holes(const Failure& failure) {
   Nucleation<dim> nucleation = session_.nucleation();
   nucleation.is_over = true;
   session_.set_nucleation(std::move(nucleation));
-  journal_.notify(StageFailed{"nucleation", text(failure)});
+  journal_.notify(StageFailed{"nucleation", to_string(failure)});
   return Next::end;
 }
 

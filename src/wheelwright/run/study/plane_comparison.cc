@@ -16,7 +16,7 @@ namespace {
 /// Accepted difference between 2D and 3D.
 constexpr double tolerable = 0.1;
 
-constexpr int most_cells_of_a_section = 3'500, least_rows = 6, axial_cells = 4, positions = 2;
+constexpr int most_cells_of_a_section = 3'500, axial_cells = 4, positions = 2;
 
 /// The case in 3D with few cells, with its width and free side faces.
 Case coarse_solid(Case c) {
@@ -29,11 +29,7 @@ Case coarse_solid(Case c) {
   c.grid.tread_levels = 0;
   c.grid.level_set_degree = 1;  // in both dimensions, so that they see the same edges
   c.grid.axial_cells = axial_cells;
-  int level = 0;
-  while ((c.grid.radial_cells >> level) * (c.grid.angular_cells >> level) > most_cells_of_a_section &&
-         c.grid.radial_cells >> (level + 1) >= least_rows)
-    ++level;
-  Case coarse = on_coarser_grid(c, level);
+  Case coarse = on_coarser_grid(c, level_with_few_cells(c.grid, most_cells_of_a_section));
   coarse.grid.axial_cells = axial_cells;
   coarse.grid.tread_levels = 0;
   return coarse;

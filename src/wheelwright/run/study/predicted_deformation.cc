@@ -14,7 +14,6 @@ namespace {
 
 /// Number of cells that is solved in about a tenth of a second.
 constexpr int most_cells = 6'000;
-constexpr int least_rows = 6;
 
 /// With an even number, positions over the middle of a hole and of a spoke are among them.
 constexpr int most_positions = 4;
@@ -61,11 +60,7 @@ std::optional<std::string> predicted_under_load(const Case& source, const Interr
 Case on_predicting_grid(Case c) {
   c.load.positions = std::min(c.load.positions, most_positions);
   c.grid.tread_levels.reset();
-  int level = 0;
-  while ((c.grid.radial_cells >> level) * (c.grid.angular_cells >> level) > most_cells &&
-         c.grid.radial_cells >> (level + 1) >= least_rows)
-    ++level;
-  return on_coarser_grid(c, level);
+  return on_coarser_grid(c, level_with_few_cells(c.grid, most_cells));
 }
 
 Expected<DeformationSize> predicted_size(const Case& c) { return deformation_of(on_predicting_grid(c), {}); }

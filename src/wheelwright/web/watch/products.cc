@@ -29,9 +29,7 @@
 namespace wheelwright {
 namespace {
 
-NoProduct no_product(const Failure& failure) {
-  return {fmt::format("{}: {}", to_string(failure.reason), failure.detail)};
-}
+NoProduct no_product(const Failure& failure) { return {to_string(failure)}; }
 
 NoProduct no_product(const std::vector<cad::OutlineFault>& faults) {
   return {fmt::format("the outline cannot be exported: {}", faults.front().what)};
