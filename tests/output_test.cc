@@ -861,6 +861,14 @@ TEST(Progress, TimeLeftFollowsTheLastShapes) {
   EXPECT_NE(lines(shown(ProgressStyle::lines, 2))[10].find("0:20 left"), std::string::npos);
 }
 
+TEST(Progress, TimeLeftIsRoundedUpAndNeverZero) {
+  const std::string quick = shown(ProgressStyle::bar, 0.06);  // 20 shapes in 1.2 s
+  EXPECT_GT(count(quick, "at most 0:02 left"), 0);
+  EXPECT_GT(count(quick, "at most 0:01 left"), 0);
+  EXPECT_EQ(count(quick, "0:00 left"), 0);
+  EXPECT_EQ(count(shown(ProgressStyle::bar, 0), "0:00 left"), 0);
+}
+
 TEST(Progress, ColourOnlyWhereAsked) {
   EXPECT_EQ(count(shown(ProgressStyle::lines, 2), "\x1b"), 0);
   EXPECT_EQ(count(shown(ProgressStyle::bar, 2), "m["), 0);
