@@ -368,16 +368,22 @@ class Page(PageTest):
         self.element("undo").click()
         self.watched.wait(lambda f: f["outline"] == before["outline"])
         self.element("tool-resize").click()
-        first, second = volume(self.changed(lambda: self.drag((hole[0] + 0.02, hole[1]), (hole[0] + 0.01, hole[1]))))
+        resized = self.changed(lambda: self.drag((hole[0] + 0.02, hole[1]), (hole[0] + 0.01, hole[1])))
+        first, second = volume(resized)
         self.assertGreater(second, first + 0.01)
+        self.assertNotIn("moved", resized[1]["message"])
         self.element("tool-fill").click()
         first, second = volume(self.changed(lambda: self.drag(hole)))
         self.assertGreater(second, first)
         between = (0.27, 0.0)
         for tool, sign in (("add", -1), ("paint", 1), ("erase", -1)):
             self.element(f"tool-{tool}").click()
-            first, second = volume(self.changed(lambda: self.drag(between, (between[0], between[1] + 0.015))))
+            frames = self.changed(lambda: self.drag(between, (between[0], between[1] + 0.015)))
+            first, second = volume(frames)
             self.assertGreater(sign * (second - first), 1e-3, tool)
+            # Only one of the tools tells of a hole; the others say what they did to the material.
+            self.assertEqual("hole" in frames[1]["message"], tool == "add", frames[1]["message"])
+            self.assertEqual("material" in frames[1]["message"], tool != "add", frames[1]["message"])
 
     def test_holes_are_edited_by_keyboard(self):
         self.settled()

@@ -236,12 +236,12 @@
   // --- Editing ----------------------------------------------------------------------------------------
 
   const tools = [["look", "Look", "Drag to move the picture, turn the mouse wheel to zoom. With the keys: arrows, plus, minus, 0."],
-    ["move", "Move", "Drag a hole. With the keys: arrows, Enter to pick it up, arrows, Enter to drop it."],
-    ["resize", "Resize", "Drag away from a hole's centre or towards it. With the keys: arrows, Enter, arrows, Enter."],
-    ["add", "Add", "Drag from the centre of the new hole outwards, or click. With the keys: arrows, Enter, Enter."],
-    ["fill", "Delete", "Click a hole to fill it. With the keys: arrows, Enter, or Delete with any tool."],
-    ["paint", "Paint", "Draw material with the mouse. With the keys: arrows, Enter, arrows, Enter."],
-    ["erase", "Erase", "Erase material with the mouse. With the keys: arrows, Enter, arrows, Enter."]];
+    ["move", "Move", "Moves a hole: drag it. With the keys: arrows, Enter to pick it up, arrows, Enter to drop it."],
+    ["resize", "Resize", "Enlarges a hole if you drag away from its centre, and shrinks it if you drag towards it. With the keys: arrows, Enter, arrows, Enter."],
+    ["add", "Add", "Adds a round hole: drag from its centre outwards, or click. With the keys: arrows, Enter, Enter."],
+    ["fill", "Delete", "Fills a hole with material: click it. With the keys: arrows, Enter, or Delete with any tool."],
+    ["paint", "Paint", "Adds material along the line that you draw. With the keys: arrows, Enter, arrows, Enter."],
+    ["erase", "Erase", "Removes material along the line that you draw. With the keys: arrows, Enter, arrows, Enter."]];
   const brushes = { paint: "material", erase: "hole" }, usingTip = ["add", "paint", "erase"];
   for (const [id, text, title] of tools) {
     const button = element("button", { type: "button", id: `tool-${id}`, "aria-pressed": String(id === "look"), title },
