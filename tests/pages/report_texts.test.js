@@ -164,6 +164,14 @@ test("the numbers of a position are found by its azimuth", () => {
   assert.deepEqual(numbersIn(reportTexts.positionNumbers({ ...numbers, travel_at_load_m: null }, 0)), [1, 5]);
 });
 
+test("the peak stress is that of the load case shown", () => {
+  const run = { summary: { after: { load_case: "straight", peak_von_mises_Pa: 2e6, load_cases: { kerb: { peak_von_mises_Pa: 5e6 }, ice: {} } } } };
+  assert.equal(reportTexts.peakStress(run, "straight"), 2);
+  assert.equal(reportTexts.peakStress(run, undefined), 2);
+  assert.equal(reportTexts.peakStress(run, "kerb"), 5);
+  for (const [of, loadCase] of [[run, "ice"], [run, "none"], [{}, undefined]]) assert.equal(reportTexts.peakStress(of, loadCase), undefined);
+});
+
 test("magnifications include the true scale and the best one, without repetition", () => {
   const { best, all } = reportTexts.magnifications(0.3, 1e-3);  // 9 would be right
   assert.equal(best, 5);

@@ -39,9 +39,13 @@ const formats = (() => {
     return current > 0.4 * wanted && current < 1.25 * wanted ? current : roundMagnification(wanted);
   }
 
-  // The labels of a colour scale at the given shares of its length; the last one has the unit.
-  const scaleLabels = (shares, { end, unit, power = 1 }) => shares.map((t) =>
-    `${Number((t ** power * end).toPrecision(3))}${t === 1 ? ` ${unit}` : ""}`);
+  // The labels of a colour scale at the given shares of its length. The last one has the unit, and names the peak if that
+  // is above the end of the colours.
+  function scaleLabels(shares, { end, unit, power = 1, peak = end }) {
+    const digits = (value) => String(Number(value.toPrecision(3)));
+    const beyond = Number(digits(peak)) > Number(digits(end)) ? `, up to ${digits(peak)}` : "";
+    return shares.map((t) => digits(t ** power * end) + (t === 1 ? `${beyond} ${unit}` : ""));
+  }
 
   const sentence = (text) => text[0].toUpperCase() + text.slice(1);
   const words = (identifier) => identifier.replaceAll("_", " ");

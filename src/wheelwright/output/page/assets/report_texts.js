@@ -126,6 +126,12 @@ const reportTexts = (() => {
       `${shown(numbers.peak_pressure_Pa[k] * 1e-6)} MPa, peak stress ${shown(numbers.peak_von_mises_Pa[k] * 1e-6)} MPa`;
   }
 
+  // The largest stress of all load positions under a load case, in MPa; undefined if the run has no such number.
+  function peakStress({ summary }, loadCase) {
+    const after = summary?.after, numbers = !loadCase || loadCase === after?.load_case ? after : after?.load_cases?.[loadCase];
+    return Number.isFinite(numbers?.peak_von_mises_Pa) ? numbers.peak_von_mises_Pa * 1e-6 : undefined;
+  }
+
   // The magnifications to choose from, and the best one of them.
   function magnifications(outerRadius, displacement) {
     const best = formats.roundMagnification(0.03 * outerRadius / displacement);
@@ -133,5 +139,5 @@ const reportTexts = (() => {
   }
 
   return { comparison, beforeAndAfter, lastWheels, boundTitles, boundRow, verdict, rejectedTrials, answers, remark, eventsTitle,
-    positionNumbers, magnifications };
+    positionNumbers, peakStress, magnifications };
 })();
