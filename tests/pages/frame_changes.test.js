@@ -58,6 +58,13 @@ test("a bound is shown in its unit, with its relation", () => {
   }
 });
 
+test("a bound is met, met within a tolerance, or not met", () => {
+  const stateOf = (more) => frameChanges.boundRow({ name: "travel", shown: { unit: "mm", factor: 1e3 }, value: 1, relation: "<", limit: 1, ...more }).state;
+  assert.equal(stateOf({ is_kept: true, kept_within: 0 }), "met");
+  assert.equal(stateOf({ is_kept: true, kept_within: 1e-3 }), "met within 0.1 %");
+  assert.equal(stateOf({ is_kept: false, kept_within: 0 }), "not met");
+});
+
 test("the clauses of a warning together are the warning", () => {
   for (const text of ["strains reach 12 %; the theory is linear; see below", "One sentence. And 2.5 more.", "no end", "it is 2.5 times"]) {
     const [first, rest] = frameChanges.clauses(text);

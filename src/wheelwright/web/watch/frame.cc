@@ -147,7 +147,8 @@ Json bound_states_json(const WatchedShape<dim>& shape) {
                       {"value", number(bound.value)},
                       {"relation", std::string(1, bound.relation)},
                       {"limit", bound.bound},
-                      {"is_kept", bound.is_kept()}});
+                      {"is_kept", bound.is_kept()},
+                      {"kept_within", bound.kept_within()}});
   return bounds;
 }
 

@@ -24,6 +24,9 @@ const formats = (() => {
   // The same with one decimal.
   const briefChange = (before, after) => change(before, after).replace(/(\.\d)\d* %/, "$1\u2009%");
 
+  // The tolerance due to which a bound counts as kept, after that word; "" if none is needed.
+  const within = (tolerance) => tolerance ? ` within ${Number((100 * tolerance).toPrecision(2))} %` : "";
+
   const minutes = (seconds) => seconds < 100 ? `${seconds.toFixed(1)} s` : `${(seconds / 60).toFixed(1)} min`;
 
   // The largest of 1, 2 and 5 times a power of ten that is not above the wanted magnification, at least 1.
@@ -50,6 +53,6 @@ const formats = (() => {
   const sentence = (text) => text[0].toUpperCase() + text.slice(1);
   const words = (identifier) => identifier.replaceAll("_", " ");
 
-  return { degree, shown, short, change, briefChange, minutes, roundMagnification, steadyMagnification,
+  return { degree, shown, short, change, briefChange, within, minutes, roundMagnification, steadyMagnification,
     scaleLabels, sentence, words };
 })();

@@ -2,7 +2,7 @@
 // What the page of a run derives from a view ("frame") of the run, from the numbers of a shape, and from pictures of the
 // loaded wheel, as the server sends them.
 const frameChanges = (() => {
-  const { short, words, sentence } = formats;
+  const { short, words, sentence, within } = formats;
 
   const labels = { volume_fraction: "material", mass_kg: "mass", mean_travel_m: "travel", stiffness_N_per_m: "stiffness",
     run_out_m: "run-out", force_variation_N: "force variation", peak_pressure_Pa: "peak pressure",
@@ -22,10 +22,11 @@ const frameChanges = (() => {
         isLate: numbers.shape_version !== frame.shape_version && now[key] === numbers.now[key] && key !== "volume_fraction" }));
   }
 
-  // The row of a bound: { name, unit, value, limit, isKept }.
-  function boundRow({ name, shown: { unit, factor }, value, relation, limit, is_kept: isKept }) {
+  // The row of a bound: { name, unit, value, limit, isKept, state }.
+  function boundRow({ name, shown: { unit, factor }, value, relation, limit, is_kept: isKept, kept_within: tolerance }) {
     const sign = { "<": "\u2264", ">": "\u2265", "=": "=" }[relation];
-    return { name: words(name), unit, value: short(value * factor), limit: `${sign} ${short(limit * factor)}`, isKept };
+    return { name: words(name), unit, value: short(value * factor), limit: `${sign} ${short(limit * factor)}`, isKept,
+      state: isKept ? `met${within(tolerance)}` : "not met" };
   }
 
   // A warning as its first clause and the rest, which is "" if there is but one clause.

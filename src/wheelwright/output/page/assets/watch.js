@@ -517,10 +517,10 @@
 
   function showBounds() {
     at("bounds").hidden = frame.bounds.length === 0;
-    at("bound-rows").replaceChildren(...frame.bounds.map(boundRow).map(({ name, unit, value, limit, isKept }) =>
+    at("bound-rows").replaceChildren(...frame.bounds.map(boundRow).map(({ name, unit, value, limit, isKept, state }) =>
       element("tr", {}, element("th", { scope: "row" }, `${name} `, element("span", { class: "unit" }, unit)),
         element("td", { class: "now" }, value), element("td", {}, limit),
-        element("td", { class: isKept ? "good" : "bad" }, isKept ? "met" : "not met"))));
+        element("td", { class: isKept ? "good" : "bad" }, state))));
   }
 
   function showWarnings() {
