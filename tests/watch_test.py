@@ -261,6 +261,15 @@ class Page(PageTest):
         after = self.watched.wait(lambda f: f["settings"]["load"]["force_N"] == 6000)
         self.assertGreater(after["numbers"]["mean_travel"], 1.5 * before["numbers"]["mean_travel"])
         self.until(lambda: self.text("message").startswith("new load"))
+        # The curve of the objective has no values of another load.
+        self.settled()
+        curve = self.watched.frame("/frame?after=0&curve=0")["curve"]
+        of_this_load = [point[1] for point in curve if point[5] == curve[-1][5]]
+        self.assertLess(len(of_this_load), len(curve))
+        self.assertGreater(of_this_load[0], 2 * curve[0][1])
+        self.until(lambda: self.browser.execute_script(
+            "return Chart.getChart(document.querySelector('#charts canvas')).data.datasets[0].data.map((p) => p.y)") ==
+            of_this_load)
         self.type("force-number", "-5")
         self.until(lambda: "refused" in self.element("message").get_attribute("class"))
         self.assertIn("force", self.text("message"))

@@ -38,6 +38,16 @@ const frameChanges = (() => {
   // A new list: at most `most` entries, the newest ones.
   const newest = (list, added, most) => [...list, ...added].slice(-most);
 
+  // The newest points of the curve of shapes whose objectives can be compared: those since the initial shape has the same
+  // objective as at the last point, so since the last change of load, weights or grid.
+  function comparable(curve) {
+    const first = ([, , , , , objective]) => objective, now = first(curve.at(-1) ?? []);
+    const isSame = (point) => first(point) === now || Math.abs(first(point) / now - 1) < 1e-9;
+    let from = curve.length;
+    while (from > 0 && isSame(curve[from - 1])) --from;
+    return curve.slice(from);
+  }
+
   // What identifies a picture of the loaded wheel.
   const pictureKey = ({ shape_version: version, load_case: loadCase, position }) => `${version} ${loadCase} ${position}`;
 
@@ -50,5 +60,5 @@ const frameChanges = (() => {
   const travelCurve = (travel_m, sectors) => ({ x: [...travel_m, 0].map((_, k) => k * 360 / sectors / travel_m.length),
     y: [...travel_m, travel_m[0]].map((t) => t * 1e3) });
 
-  return { numberRows, boundRow, clauses, newest, pictureKey, isSameShape, sameOutline, travelCurve };
+  return { numberRows, boundRow, clauses, newest, comparable, pictureKey, isSameShape, sameOutline, travelCurve };
 })();

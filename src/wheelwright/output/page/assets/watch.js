@@ -1,7 +1,7 @@
 "use strict";
 (() => {
   const { colour, element, chart } = parts, { shown, short, briefChange, words } = formats;
-  const { numberRows, boundRow, clauses, newest, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
+  const { numberRows, boundRow, clauses, newest, comparable, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
   const at = (id) => document.getElementById(id);
 
   // --- The server -------------------------------------------------------------------------------------
@@ -42,7 +42,8 @@
   // --- What is shown ----------------------------------------------------------------------------------
 
   let frame = null;   // the newest view of the run
-  let curve = [];     // [shape, objective, mean travel, run-out, volume fraction] of the shapes so far
+  let curve = [];     // of the shapes so far: [shape, objective, mean travel, run-out, volume fraction, objective of the
+                      // initial shape]
   const mostPoints = 4000;
   const wheel = at("wheel");
   const isSolid = () => frame?.wheel?.dimension === 3;
@@ -618,7 +619,10 @@
   const betweenCurves = 250;
   let curvesDrawn = 0, curvesOf = 0;  // when, and of which view
   function showCurves() {
-    charts.objective.update([{ name: "objective", x: curve.map((p) => p[0]), y: curve.map((p) => p[1]) }]);
+    const since = comparable(curve);
+    charts.objective.update([{ name: "objective", x: since.map((p) => p[0]), y: since.map((p) => p[1]) }]);
+    charts.objective.figure.firstChild.textContent =
+      `Objective by shape${since.length < curve.length ? ", since the last change" : ""}`;
     charts.travel.update([{ name: "travel", ...travelCurve(frame.travel_m, frame.wheel.sectors) }]);
     charts.pressure.update([{ name: "pressure", x: frame.pressure.x_m.map((x) => x * 1e3),
       y: frame.pressure.pressure_Pa.map((p) => p * 1e-6) }]);
