@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/run/results/bounded_peaks.h"
 #include "wheelwright/run/study/case_report.h"
 #include "wheelwright/run/study/study.h"
 
@@ -77,6 +78,54 @@ TEST(BoundedFunctions, AreShownOnTheWholeWidthInTheUnitsOfTables) {
       << shown;
   EXPECT_NEAR(value, bounds[0].value * 0.04 * 1e-3, 1e-5 * value);
   EXPECT_NEAR(limit, 600, 1e-9);
+}
+
+TEST(BoundedFunctions, NameTheToleranceWithoutWhichABoundIsNotKept) {
+  const auto study = make_study<2>(small_case());
+  ASSERT_TRUE(study);
+  const auto state = [](double bound, double violation) {
+    return BoundState{.name = "mean_travel",
+                      .value = bound + violation * (bound == 0 ? 1 : bound),
+                      .bound = bound,
+                      .relation = '<',
+                      .multiplier = 0,
+                      .violation = violation,
+                      .unit = UnitKind::length};
+  };
+  const auto names_it = [&](const BoundState& bound) {
+    return text(bound, study->grid()).find("within 0.1 %") != std::string::npos;
+  };
+  for (const double violation : {2e-6, 5e-4, 1e-3}) {
+    EXPECT_EQ(state(2e-3, violation).kept_within(), feasible_violation) << violation;
+    EXPECT_TRUE(names_it(state(2e-3, violation))) << violation;
+  }
+  for (const double violation : {0.0, 1e-9, 1.01e-3}) {
+    EXPECT_EQ(state(2e-3, violation).kept_within(), 0) << violation;
+    EXPECT_FALSE(names_it(state(2e-3, violation))) << violation;
+  }
+  EXPECT_EQ(state(0, 5e-4).kept_within(), 0);  // of what?
+}
+
+// Peaks may be larger between the positions; what is a mean or does not depend on the load has nothing
+// between.
+TEST(BoundedFunctions, OnPeaksNameTheNumberOfTheirPositions) {
+  Case c = small_case();
+  c.load.positions = 12;
+  c.constraints = {{.quantity = built_in("stiffness"), .at_least = 1},
+                   {.quantity = built_in("mass"), .at_most = 1},
+                   {.quantity = built_in("travel"), .at_most = 1}};
+  EXPECT_EQ(bounded_peaks(c), "");
+  for (const Constraint& peak :
+       {Constraint{.quantity = built_in("peak_von_mises"), .at_most = 1},
+        Constraint{.quantity = built_in("travel"), .at_most = 1, .over = OverPositions::worst},
+        Constraint{.quantity = built_in("travel"), .at_most = 1, .over = OverPositions::each}}) {
+    Case with_peak = c;
+    with_peak.constraints.push_back(peak);
+    const std::string told = bounded_peaks(with_peak);
+    EXPECT_NE(told.find(name(peak.quantity)), std::string::npos) << told;
+    EXPECT_NE(told.find(" 12 "), std::string::npos) << told;
+    EXPECT_EQ(told.find("stiffness"), std::string::npos) << told;
+  }
 }
 
 TEST(BoundedFunctions, PermitALighterWheel) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -970,31 +971,59 @@ std::string remedies(const CaseResult& result) {
   return all;
 }
 
-/// A circle as a DXF file of which the unit is a metre (6) or a millimetre (4).
+/// A circle as a DXF file. `unit`: 0 none, 1 inch, 4 millimetre, 5 centimetre, 6 metre.
 std::string circle_dxf(double x, double radius, int unit) {
   return dxf(fmt::format("0\nCIRCLE\n10\n{}\n20\n0\n40\n{}\n", x, radius), unit);
 }
 
-TEST_F(DrawingInACase, UnitsAreSuspectedOnlyWhereADrawingIsFarTooLargeOrSmall) {
-  const auto remedies_of = [&](const std::string& drawing) {
-    write("holes.dxf", drawing);
-    return remedies(read("[[shape.file]]\npath = \"holes.dxf\"\ncount = 16\n"));
+/// A drawing in a wrong unit names the one with which it fits, and no other.
+TEST_F(DrawingInACase, TheUnitWithWhichADrawingFitsIsNamed) {
+  const std::map<std::string, std::pair<double, int>> units{
+      {"m", {1, 6}}, {"cm", {1e-2, 5}}, {"mm", {1e-3, 4}}, {"in", {0.0254, 1}}};
+  const std::map<std::string, std::string> words{
+      {"m", "in metres"}, {"cm", "in centimetres"}, {"mm", "in millimetres"}, {"in", "in inches"}};
+  for (const auto& [right, of_right] : units)
+    for (const auto& [stated, of_stated] : units) {
+      const double u = of_right.first;
+      for (const bool by_case : {true, false}) {
+        write("holes.dxf", circle_dxf(0.27 / u, 0.02 / u, by_case ? 0 : of_stated.second));
+        const std::string remedy = remedies(read("[[shape.file]]\npath = \"holes.dxf\"\ncount = 16\n" +
+                                                 (by_case ? fmt::format("unit = \"{}\"\n", stated) : "")));
+        for (const auto& [key, word] : words) {
+          const bool is_named = key == right && right != stated;
+          EXPECT_EQ(remedy.find(word) != std::string::npos, is_named) << remedy;
+          EXPECT_EQ(remedy.find(fmt::format("unit = \"{}\"", key)) != std::string::npos, is_named && by_case)
+              << remedy;
+        }
+        EXPECT_EQ(remedy.empty(), right == stated) << remedy;
+        EXPECT_EQ(remedy.find("is in mm"), std::string::npos) << remedy;
+      }
+    }
+}
+
+/// In the right unit a drawing of the wrong size names the sizes with which it fits.
+TEST_F(DrawingInACase, TheSizeWithWhichADrawingFitsIsNamed) {
+  const auto result_of = [&](double x, double radius) {
+    write("holes.dxf", circle_dxf(x, radius, 4));
+    return read("[[shape.file]]\npath = \"holes.dxf\"\ncount = 16\n");
   };
-  const std::string hint = "if they are millimetres";
-  EXPECT_NE(remedies_of(circle_dxf(270, 20, 6)).find(hint), std::string::npos);
-  EXPECT_NE(remedies_of(circle_dxf(0.27, 0.02, 4)).find("0.29 m if they are metres"), std::string::npos);
-  for (const std::string& drawing : {circle_dxf(270, 20, 4), circle_dxf(0.27, 0.02, 6)})
-    EXPECT_EQ(remedies_of(drawing), "");
-  // Too large for the ring, in the right unit.
-  for (const double x : {320.0, 800.0}) {
-    const std::string remedy = remedies_of(circle_dxf(x, 30, 4));
-    EXPECT_NE(remedy, "") << x;
-    EXPECT_EQ(remedy.find(hint), std::string::npos) << remedy;
+  for (const double x : {80.0, 320.0, 800.0}) {
+    const std::string remedy = remedies(result_of(x, 0.05 * x));
+    double least = 0, most = 0;
+    ASSERT_EQ(std::sscanf(remedy.c_str(), "it fits if it is drawn %lf to %lf times", &least, &most), 2)
+        << remedy;
+    for (const double factor : {least, most})
+      EXPECT_EQ(remedies(result_of(factor * x, factor * 0.05 * x)), "") << factor;
+    for (const double factor : {0.98 * least, 1.02 * most})
+      EXPECT_NE(remedies(result_of(factor * x, factor * 0.05 * x)), "") << factor;
   }
+  const std::string too_wide = remedies(result_of(270, 90));  // at any size
+  EXPECT_NE(too_wide, "");
+  EXPECT_EQ(too_wide.find("times as large"), std::string::npos) << too_wide;
   // A shape of the case itself has no unit of its own.
   const std::string circle = remedies(read("[[shape.circle]]\ncenter_radius = 270\nradius = 20\n"));
   EXPECT_NE(circle, "");
-  EXPECT_EQ(circle.find(hint), std::string::npos) << circle;
+  EXPECT_EQ(circle.find("it fits if"), std::string::npos) << circle;
 }
 
 TEST_F(DrawingInACase, AWheelInMillimetresAroundADrawingIsRecognized) {

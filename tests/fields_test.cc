@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "tests/support.h"
 #include "wheelwright/mechanics/rolling/ring_displacement.h"
 #include "wheelwright/mechanics/rolling/ring_state.h"
+#include "wheelwright/output/report/cell_means.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/output/report/tread_contact.h"
 
@@ -213,6 +216,43 @@ TEST(ContactPoints, GapsAreThoseOfTheDisplacementAtTheirAzimuth) {
     EXPECT_GE(point.pressure, 0);
   }
   EXPECT_GT(touching, 10);
+}
+
+// Every cell at the tread has the points of the Gauss rule, halved cells as well as whole ones, in its own
+// range of azimuths. Their means carry the forces and their moments, without the jumps of points inside a
+// cell.
+TEST(ContactPoints, TheirMeansOverCellsCarryTheSameForces) {
+  for (const int levels : {0, 2}) {
+    auto model = asymmetric_model(2);
+    model.tread.levels = levels;
+    const auto problem = RollingProblem<2>::create(model);
+    const auto solution = problem->solve(asymmetric_shape(model.grid));
+    ASSERT_TRUE(solution);
+    const auto points = contact_points(*problem, *ring_state<2>(*problem, *solution));
+    const auto cells = cell_means(points);
+    const int n_cells = model.grid.ring_columns() << levels;
+    const double width = 2 * std::numbers::pi / n_cells;
+    std::map<std::pair<int, int>, int> counts;
+    for (const ContactPoint& p : points) {
+      const double azimuth = 2 * std::numbers::pi / 7 * p.position / 3 + p.azimuth;
+      EXPECT_EQ(p.cell, (static_cast<int>(std::floor(azimuth / width)) + n_cells) % n_cells);
+      ++counts[{p.position, p.cell}];
+    }
+    EXPECT_EQ(counts.size(), cells.size());
+    for (const auto& [place, count] : counts) EXPECT_EQ(count, model.contact_points);
+    for (const auto& moment :
+         {+[](const ContactPoint& p) { return p.pressure; },
+          +[](const ContactPoint& p) { return p.friction; }, +[](const ContactPoint& p) { return p.x; }}) {
+      std::array<double, 3> of_points{}, of_cells{};
+      for (const ContactPoint& p : points) of_points[p.position] += p.weight * moment(p);
+      for (const ContactPoint& p : cells) of_cells[p.position] += p.weight * moment(p);
+      for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(of_cells[i], of_points[i], 1e-9 * std::abs(of_points[i]) + 1e-12);
+    }
+    for (std::size_t k = 1; k < cells.size(); ++k) {
+      if (cells[k].position == cells[k - 1].position) EXPECT_GT(cells[k].x, cells[k - 1].x);
+    }
+  }
 }
 
 // The whole tread at once: what it shows at the contact points is what contact_points() shows.

@@ -593,14 +593,25 @@ TEST(ColourScale, StartsAtZeroAndOmitsTheTail) {
   for (int k = 0; k < 1000; ++k) values.push_back(k < 995 ? 700.0 * k : 1e9);
   const ColourScale scale = colour_scale_from_zero(values, 0.01);
   EXPECT_EQ(scale.lower, 0);
-  EXPECT_TRUE(scale.cut_above);
+  EXPECT_TRUE(scale.is_cut_above());
+  EXPECT_EQ(scale.largest, 1e9);
   EXPECT_GE(scale.upper, values[989]);
   EXPECT_LE(scale.upper, 1.25 * values[990]);
   const ColourScale all = colour_scale(values, 0);
   EXPECT_EQ(all.upper, 1e9);
-  EXPECT_FALSE(all.cut_above || all.cut_below);
+  EXPECT_FALSE(all.is_cut_above() || all.is_cut_below());
   EXPECT_EQ(colour_scale_from_zero(std::vector<double>(5, 0.0), 0.01).upper, 0);
   EXPECT_EQ(colour_scale(std::vector<double>{NAN}, 0).upper, 0);
+}
+
+// The colours may end below the peak, but the bar does not hide it.
+TEST(ColourScale, ABarThatEndsBelowTheLargestValueNamesIt) {
+  const auto bar = [](double largest) {
+    return colour_bar({.lower = 0, .upper = 2e6, .smallest = 0, .largest = largest}, "stress", "Pa", 0, 400);
+  };
+  EXPECT_EQ(count(bar(2.46e6), ">up to 2.46<"), 1);
+  EXPECT_EQ(count(bar(2e6), "up to"), 0);
+  EXPECT_EQ(count(bar(1.9e6), "up to"), 0);
 }
 
 TEST(Magnification, IsRoundAndAsLargeAsPossible) {
@@ -733,6 +744,21 @@ TEST(DeformedSvg, SaysLoadPositionAndMagnification) {
   EXPECT_EQ(count(svg, "peak 340 mm"), 1);
   picture.peak = DrawnPeak<2>{cartesian<2>({0.25, 0.31}), 7.25};
   EXPECT_EQ(count(deformed_svg(psi, psi.lattice, picture), "peak 7.25 m"), 1);
+  EXPECT_EQ(count(svg, "most stressed"), 0);  // of one position
+  picture.most_stressed_of = 8;
+  EXPECT_EQ(count(deformed_svg(psi, psi.lattice, picture), "the most stressed of 8 positions"), 1);
+}
+
+// The peak at the quadrature points may exceed all that is drawn, and lie outside a window.
+TEST(DeformedSvg, ItsBarReachesThePeakInView) {
+  const auto psi = holes_level_set(2, 1.0);
+  const auto still = ring_field(psi.lattice, 2, [](const Vec<2>&) { return Vec<2>{}; });
+  DeformedPicture<2> picture = picture_of(psi, still, 1);
+  picture.scale = ScaleKind::without_tail;
+  picture.peak = DrawnPeak<2>{cartesian<2>({0.21, 0.3 + pi}), 0.725};
+  EXPECT_EQ(count(deformed_svg(psi, psi.lattice, picture), ">up to 725<"), 1);
+  picture.window = 0.03;
+  EXPECT_EQ(count(deformed_svg(psi, psi.lattice, picture), "up to"), 0);
 }
 
 // The ring about the peak stands where the material is drawn, moved as that is.
@@ -778,7 +804,8 @@ TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {
                       .pressure = 1e6,
                       .friction = 0,
                       .normal_stress = 0,
-                      .gap = 0},
+                      .gap = 0,
+                      .cell = 0},
                      {.position = 0,
                       .azimuth = 0,
                       .x = 1e-3,
@@ -786,9 +813,10 @@ TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {
                       .pressure = 4e6,
                       .friction = 0,
                       .normal_stress = 0,
-                      .gap = 0}};
+                      .gap = 0,
+                      .cell = 1}};
   const std::string part = deformed_svg(psi, psi.lattice, picture);
-  EXPECT_EQ(count(part, "peak 4 MPa"), 1);
+  EXPECT_EQ(count(part, "up to 4 MPa"), 1);
   EXPECT_EQ(count(whole, "contact pressure"), 0);
   // The scale spans the radii in view: from 0.2 m for the wheel, from 0.34 - 1.78 * 0.03 m here.
   const auto minimum = [](const std::string& svg) {
@@ -859,6 +887,14 @@ TEST(Progress, LinesAtMostOnceASecondAndTheLastShape) {
 
 TEST(Progress, TimeLeftFollowsTheLastShapes) {
   EXPECT_NE(lines(shown(ProgressStyle::lines, 2))[10].find("0:20 left"), std::string::npos);
+}
+
+TEST(Progress, TimeLeftIsRoundedUpAndNeverZero) {
+  const std::string quick = shown(ProgressStyle::bar, 0.06);  // 20 shapes in 1.2 s
+  EXPECT_GT(count(quick, "at most 0:02 left"), 0);
+  EXPECT_GT(count(quick, "at most 0:01 left"), 0);
+  EXPECT_EQ(count(quick, "0:00 left"), 0);
+  EXPECT_EQ(count(shown(ProgressStyle::bar, 0), "0:00 left"), 0);
 }
 
 TEST(Progress, ColourOnlyWhereAsked) {

@@ -156,7 +156,8 @@ TEST(Plot, CurvesOfAnyNumberOfPositionsAreFew) {
                           .pressure = std::max(0.0, 4e6 - 1e6 * k * k),
                           .friction = 0,
                           .normal_stress = 0,
-                          .gap = 0});
+                          .gap = 0,
+                          .cell = k + 4});
     }
     const LinePlot plot = pressure_plot(points, azimuths, "");
     EXPECT_EQ(plot.curves.size(), n <= 8 ? size_t(n) : plot.curves.size());
@@ -167,6 +168,28 @@ TEST(Plot, CurvesOfAnyNumberOfPositionsAreFew) {
       EXPECT_EQ(curve.y, (std::vector<double>{0, 3, 4, 3, 0}));
     }
   }
+}
+
+// A spike at one point of the cell in which the contact ends is not drawn, but the force of the cell is.
+TEST(Plot, PressuresAreMeansOfCells) {
+  std::vector<ContactPoint> points;
+  const std::vector<std::vector<double>> pressures{{0, 0}, {0, 3}, {2, 2}, {2.5, 1.5}, {0, 0}};
+  for (int cell = 0; cell < 5; ++cell)
+    for (int k = 0; k < 2; ++k)
+      points.push_back({.position = 0,
+                        .azimuth = 0,
+                        .x = 1e-3 * (cell + 0.25 + 0.5 * k),
+                        .weight = k == 0 ? 1e-3 : 2e-3,
+                        .pressure = 1e6 * pressures[cell][k],
+                        .friction = 0,
+                        .normal_stress = 0,
+                        .gap = 0,
+                        .cell = cell});
+  const LinePlot plot = pressure_plot(points, std::vector<double>{0}, "");
+  ASSERT_EQ(plot.curves.size(), 1u);
+  const std::vector<double> means{0, 2, 2, 11.0 / 6, 0};
+  ASSERT_EQ(plot.curves[0].y.size(), means.size());
+  for (std::size_t k = 0; k < means.size(); ++k) EXPECT_NEAR(plot.curves[0].y[k], means[k], 1e-12);
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "wheelwright/run/observers/run_report.h"
 
+#include <array>
+#include <set>
+
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/run/observers/report_file.h"
+#include "wheelwright/run/results/stop_text.h"
 #include "wheelwright/run/study/study.h"
 
 namespace wheelwright::testing {
@@ -30,6 +34,18 @@ class LongRun : public TemporaryFolder {
 
   Case source_;
 };
+
+TEST(StopText, DiffersForEveryReasonAndSaysConvergedOnlyOfAToleranceThatWasMet) {
+  std::set<std::string> texts;
+  constexpr std::array all{StopReason::converged, StopReason::iterations,   StopReason::no_descent,
+                           StopReason::gave_up,   StopReason::failed_start, StopReason::stop_requested};
+  for (const StopReason reason : all) {
+    texts.insert(text(reason));
+    EXPECT_EQ(text(reason).find("converged") != std::string::npos, reason == StopReason::converged);
+    EXPECT_EQ(text_of_stop(to_string(reason)), text(reason));
+  }
+  EXPECT_EQ(texts.size(), all.size());
+}
 
 TEST_F(LongRun, IsShownByEvenlyThinnedShapesEachWithItsOwnNumbers) {
   const auto run = report_of_folder<2>(folder(), source_);

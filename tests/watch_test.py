@@ -261,6 +261,15 @@ class Page(PageTest):
         after = self.watched.wait(lambda f: f["settings"]["load"]["force_N"] == 6000)
         self.assertGreater(after["numbers"]["mean_travel"], 1.5 * before["numbers"]["mean_travel"])
         self.until(lambda: self.text("message").startswith("new load"))
+        # The curve of the objective has no values of another load.
+        self.settled()
+        curve = self.watched.frame("/frame?after=0&curve=0")["curve"]
+        of_this_load = [point[1] for point in curve if point[5] == curve[-1][5]]
+        self.assertLess(len(of_this_load), len(curve))
+        self.assertGreater(of_this_load[0], 2 * curve[0][1])
+        self.until(lambda: self.browser.execute_script(
+            "return Chart.getChart(document.querySelector('#charts canvas')).data.datasets[0].data.map((p) => p.y)") ==
+            of_this_load)
         self.type("force-number", "-5")
         self.until(lambda: "refused" in self.element("message").get_attribute("class"))
         self.assertIn("force", self.text("message"))
@@ -368,16 +377,22 @@ class Page(PageTest):
         self.element("undo").click()
         self.watched.wait(lambda f: f["outline"] == before["outline"])
         self.element("tool-resize").click()
-        first, second = volume(self.changed(lambda: self.drag((hole[0] + 0.02, hole[1]), (hole[0] + 0.01, hole[1]))))
+        resized = self.changed(lambda: self.drag((hole[0] + 0.02, hole[1]), (hole[0] + 0.01, hole[1])))
+        first, second = volume(resized)
         self.assertGreater(second, first + 0.01)
+        self.assertNotIn("moved", resized[1]["message"])
         self.element("tool-fill").click()
         first, second = volume(self.changed(lambda: self.drag(hole)))
         self.assertGreater(second, first)
         between = (0.27, 0.0)
         for tool, sign in (("add", -1), ("paint", 1), ("erase", -1)):
             self.element(f"tool-{tool}").click()
-            first, second = volume(self.changed(lambda: self.drag(between, (between[0], between[1] + 0.015))))
+            frames = self.changed(lambda: self.drag(between, (between[0], between[1] + 0.015)))
+            first, second = volume(frames)
             self.assertGreater(sign * (second - first), 1e-3, tool)
+            # Only one of the tools tells of a hole; the others say what they did to the material.
+            self.assertEqual("hole" in frames[1]["message"], tool == "add", frames[1]["message"])
+            self.assertEqual("material" in frames[1]["message"], tool != "add", frames[1]["message"])
 
     def test_holes_are_edited_by_keyboard(self):
         self.settled()

@@ -12,7 +12,7 @@ def mesh(r: Runs, album: Album) -> str:
     return joined(
         f"The polar grid of the initial wheel, 28 x 384 cells: {inside} lie inside the material, {cut} are cut by its "
         f"boundary, {outside} lie outside. Displacements have degree 2, as in the paper. The second picture shows the "
-        "solution in the load position with the largest strain energy. The picture says how many times enlarged its "
+        "solution in the load position with the largest von Mises stress. The picture says how many times enlarged its "
         "displacements are; where they would carry the tread through the ground, it is drawn on it.\n",
         album.copied(run, "shapes/shape_0000_mesh.svg", "The polar grid, cut by the level set"),
         album.copied(run, "shapes/shape_0000_displacement.svg", "The solution on the deformed wheel"),

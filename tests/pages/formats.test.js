@@ -75,3 +75,9 @@ test("the labels of a scale of square roots are quadratic, and the last one has 
   assert.deepEqual(formats.scaleLabels([0, 0.5, 1], { end: 8, unit: "MPa", power: 2 }), ["0", "2", "8 MPa"]);
   assert.deepEqual(formats.scaleLabels([0, 0.25, 1], { end: 8.0004, unit: "mm" }), ["0", "2", "8 mm"]);
 });
+
+test("a scale that ends below the peak names it", () => {
+  const last = (peak) => formats.scaleLabels([0, 1], { end: 1.9, unit: "MPa", peak })[1];
+  assert.equal(last(2.456), "1.9, up to 2.46 MPa");
+  for (const peak of [1.9, 1.9001, 1.5, undefined]) assert.equal(last(peak), "1.9 MPa");
+});

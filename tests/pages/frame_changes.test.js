@@ -58,6 +58,24 @@ test("a bound is shown in its unit, with its relation", () => {
   }
 });
 
+test("a bound is met, met within a tolerance, or not met", () => {
+  const stateOf = (more) => frameChanges.boundRow({ name: "travel", shown: { unit: "mm", factor: 1e3 }, value: 1, relation: "<", limit: 1, ...more }).state;
+  assert.equal(stateOf({ is_kept: true, kept_within: 0 }), "met");
+  assert.equal(stateOf({ is_kept: true, kept_within: 1e-3 }), "met within 0.1 %");
+  assert.equal(stateOf({ is_kept: false, kept_within: 0 }), "not met");
+});
+
+test("objectives are compared since the last change of what they mean", () => {
+  const point = (shape, objective, initial) => [shape, objective, 1e-3, 1e-5, 0.5, initial];
+  const before = [point(0, 4, 4), point(1, 3, 4)], heavier = [point(1, 9, 12), point(2, 8, 12 * (1 + 1e-13))];
+  assert.deepEqual(frameChanges.comparable(before), before);
+  assert.deepEqual(frameChanges.comparable([...before, ...heavier]), heavier);
+  assert.deepEqual(frameChanges.comparable([...before, ...heavier, point(3, 3, 4)]), [point(3, 3, 4)]);
+  assert.deepEqual(frameChanges.comparable([]), []);
+  const unknown = [point(0, 4, null), point(1, 3, null)];
+  assert.deepEqual(frameChanges.comparable([...before, ...unknown]), unknown);
+});
+
 test("the clauses of a warning together are the warning", () => {
   for (const text of ["strains reach 12 %; the theory is linear; see below", "One sentence. And 2.5 more.", "no end", "it is 2.5 times"]) {
     const [first, rest] = frameChanges.clauses(text);

@@ -47,10 +47,10 @@ test("runs are compared under the load cases of all of them", () => {
 });
 
 // A bound on a travel in mm, for an objective in J.
-function boundRun(relation, value, bound, { multiplier = 0, is_kept = true } = {}) {
+function boundRun(relation, value, bound, { multiplier = 0, is_kept = true, kept_within } = {}) {
   return { objective: { unit: "J", factor: 1 }, bound_units: [{ unit: "mm", factor: 1e3 }],
     history: { iteration: [0, 1, 2], "bounded mean_travel [m]": [null, 0.004, 0.003], "bounded mean_travel_2 [m]": [9, 9, 9] },
-    summary: { bounds: [{ name: "mean_travel", value, bound, relation, multiplier, is_kept }] } };
+    summary: { bounds: [{ name: "mean_travel", value, bound, relation, multiplier, is_kept, kept_within }] } };
 }
 const columns = (row) => Object.fromEntries(reportTexts.boundTitles.map((title, k) => [title, row[k]]));
 const boundOf = (...of) => columns(reportTexts.boundRow(boundRun(...of), 0));
@@ -74,6 +74,14 @@ test("a bound is active if it has a multiplier or is an equation, and not kept t
     boundOf("<", 0.006, 0.005, { multiplier: 2, is_kept: false })].map(({ state }) => state);
   assert.equal(new Set([states[0], states[1], states[3]]).size, 3);
   assert.equal(states[1], states[2]);
+});
+
+test("a bound and the verdict name the tolerance without which the bound is not kept", () => {
+  assert.match(boundOf("<", 0.005002, 0.005, { multiplier: 2, kept_within: 1e-3 }).state, /^active.* within 0\.1 %$/);
+  assert.doesNotMatch(boundOf("<", 0.005, 0.005, { multiplier: 2 }).state, /within/);
+  const run = { flags: [], summary: { before: {}, after: {}, bounds: [{ is_kept: true, kept_within: 1e-3 }, { is_kept: true }] } };
+  assert.match(reportTexts.verdict(run), /both bounds are kept within 0\.1 %/i);
+  assert.doesNotMatch(reportTexts.verdict({ ...run, summary: { ...run.summary, bounds: [{ is_kept: true }] } }), /within/);
 });
 
 test("the multiplier is in the units of the objective and the bound", () => {
@@ -162,6 +170,14 @@ test("the numbers of a position are found by its azimuth", () => {
   assert.equal(reportTexts.positionNumbers(numbers, 0.05), "");
   assert.equal(reportTexts.positionNumbers(undefined, 0), "");
   assert.deepEqual(numbersIn(reportTexts.positionNumbers({ ...numbers, travel_at_load_m: null }, 0)), [1, 5]);
+});
+
+test("the peak stress is that of the load case shown", () => {
+  const run = { summary: { after: { load_case: "straight", peak_von_mises_Pa: 2e6, load_cases: { kerb: { peak_von_mises_Pa: 5e6 }, ice: {} } } } };
+  assert.equal(reportTexts.peakStress(run, "straight"), 2);
+  assert.equal(reportTexts.peakStress(run, undefined), 2);
+  assert.equal(reportTexts.peakStress(run, "kerb"), 5);
+  for (const [of, loadCase] of [[run, "ice"], [run, "none"], [{}, undefined]]) assert.equal(reportTexts.peakStress(of, loadCase), undefined);
 });
 
 test("magnifications include the true scale and the best one, without repetition", () => {

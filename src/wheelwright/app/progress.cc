@@ -37,8 +37,10 @@ std::string change_text(const ProgressState& s) {
   return fmt::format("{:+.2f} %", 100 * (s.objective / s.initial_objective - 1));
 }
 
+/// Rounded up, and never "0:00": this is shown only while there is something left to do.
 std::string left_text(double seconds_left) {
-  return seconds_left < 0 ? "time left unknown" : "at most " + clock_text(seconds_left) + " left";
+  if (seconds_left < 0) return "time left unknown";
+  return "at most " + clock_text(std::max(1.0, std::ceil(seconds_left))) + " left";
 }
 
 double completed_fraction(const ProgressState& s) {

@@ -188,7 +188,10 @@ int report_result(const RunResult<dim>& result, const fs::path& folder, const Si
   if (result.reason == StopReason::failed_start) return report_failure(result, folder);
   print_summary(result, folder);
   if (result.reason == StopReason::gave_up) return report_failure(result, folder);
-  const int bounds = report_bounds(*result.state), expected = report_findings(result.findings);
+  const int bounds = report_bounds(*result.state);
+  if (result.summary && !result.summary->bounded_peaks.empty())
+    print("           {}\n", result.summary->bounded_peaks);
+  const int expected = report_findings(result.findings);
   return bounds == exit_done ? expected : bounds;
 }
 

@@ -1,7 +1,5 @@
 #include "wheelwright/case/load_drawings.h"
 
-#include <optional>
-
 #include "wheelwright/cad/drawing/drawing.h"
 #include "wheelwright/cad/drawing/png_file.h"
 #include "wheelwright/case/case_key.h"
@@ -14,22 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = Diagnostic::Kind;
 using Problems = std::vector<FileProblem>;
-
-std::optional<double> metres(DrawingUnit unit) {
-  switch (unit) {
-    case DrawingUnit::of_file:
-      return {};
-    case DrawingUnit::metre:
-      return 1;
-    case DrawingUnit::centimetre:
-      return 1e-2;
-    case DrawingUnit::millimetre:
-      return 1e-3;
-    case DrawingUnit::inch:
-      return 0.0254;
-  }
-  return {};
-}
 
 std::string key_of_problem(DrawingProblem::Key key, std::size_t i) {
   switch (key) {
@@ -79,6 +61,22 @@ void load(PictureShape& shape, const fs::path& folder, std::size_t i, Problems& 
 }
 
 }  // namespace
+
+std::optional<double> metres(DrawingUnit unit) {
+  switch (unit) {
+    case DrawingUnit::of_file:
+      return {};
+    case DrawingUnit::metre:
+      return 1;
+    case DrawingUnit::centimetre:
+      return 1e-2;
+    case DrawingUnit::millimetre:
+      return 1e-3;
+    case DrawingUnit::inch:
+      return 0.0254;
+  }
+  return {};
+}
 
 std::vector<FileProblem> load_drawings(Case& c, const fs::path& folder,
                                        const std::function<bool(const std::string&)>& may_be_read) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "wheelwright/case/named_file.h"
 
 namespace wheelwright {
+
+/// The length of a unit [m]; nothing for the unit of the file.
+std::optional<double> metres(DrawingUnit unit);
 
 /// Reads the drawings and pictures of a case into it, from paths relative to `folder`, and sets their
 /// checksums. Skips the given shapes, e.g. "shape.file[1]".

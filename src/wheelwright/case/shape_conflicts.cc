@@ -2,12 +2,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "wheelwright/cad/drawing/drawing.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/load_drawings.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/shape_symmetry.h"
@@ -109,31 +111,65 @@ RadialExtent radial_extent(const DrawnShape& shape, std::string& lowest_place, s
   return all;
 }
 
-/// The drawing of a shape that comes from a file of curves; null for others.
-const Drawing* drawing_of(const DrawnShape& shape, const Case& c) {
+/// The file of curves that a shape comes from; null for others, and without a drawing.
+const FileShape* file_of(const DrawnShape& shape, const Case& c) {
   for (std::size_t i = 0; i < c.shapes.files.size(); ++i)
-    if (shape.table == table_of<FileShape>(i)) return c.shapes.files[i].drawing.contents.get();
+    if (shape.table == table_of<FileShape>(i) && c.shapes.files[i].drawing.contents)
+      return &c.shapes.files[i];
   return nullptr;
 }
 
-/// The size of a drawing in other units, if it is far too large or too small for the wheel.
+/// Whether the radii of the wheel are too large to be in metres.
+bool is_huge(const Wheel& wheel) {
+  constexpr double largest_radius = 5;
+  return wheel.outer_radius > largest_radius;
+}
+
+/// The units with which a drawing would end in the ring, if it does not; empty if it is the wheel whose size
+/// is doubtful.
 std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
-  constexpr double far_off = 8;
-  const double ratio = reach / c.wheel.outer_radius;
-  const Drawing* drawing = drawing_of(shape, c);
-  if (!drawing || (ratio < far_off && ratio > 1 / far_off)) return "";
-  const double units = reach / drawing->metres_per_unit;
-  return fmt::format(
-      "is its unit correct? The drawing extends to {:.6g} of its units from the axle: {:.4g} m if they are "
-      "millimetres, {:.4g} m if they are inches, {:.4g} m if they are metres",
-      units, units * 1e-3, units * 0.0254, units);
+  struct NamedUnit {
+    DrawingUnit unit;
+    std::string_view word, key;
+  };
+  constexpr std::array<NamedUnit, 4> units{{{DrawingUnit::metre, "metres", "m"},
+                                            {DrawingUnit::centimetre, "centimetres", "cm"},
+                                            {DrawingUnit::millimetre, "millimetres", "mm"},
+                                            {DrawingUnit::inch, "inches", "in"}}};
+  constexpr double near = 1.01;
+  const auto ends_in_ring = [&](double radius) {
+    return radius > c.wheel.inner_radius && radius <= near * c.wheel.outer_radius;
+  };
+  const FileShape* file = file_of(shape, c);
+  if (!file || ends_in_ring(reach) || is_huge(c.wheel)) return "";
+  std::vector<std::string_view> words;
+  std::vector<std::string> remedies;
+  for (const auto& [unit, word, key] : units) {
+    if (!ends_in_ring(reach / file->drawing.contents->metres_per_unit * *metres(unit))) continue;
+    words.push_back(word);
+    remedies.push_back(fmt::format("set unit = \"{}\"", key));
+  }
+  if (words.empty()) return "";
+  return fmt::format("it fits if its numbers are in {}: {}", fmt::join(words, " or "),
+                     file->unit == DrawingUnit::of_file ? "correct the unit that the file states"
+                                                        : fmt::format("{}", fmt::join(remedies, " or ")));
+}
+
+/// How much larger or smaller a drawing must be for the region; empty if no size fits.
+std::string scale_hint(const DrawnShape& shape, const Case& c, const RadialExtent& extent,
+                       const HoleRange& region) {
+  if (!file_of(shape, c) || is_huge(c.wheel) || !(extent.low > 0)) return "";
+  const double least = rounded_up(region.inner / extent.low),
+               most = 1 / rounded_up(extent.high / region.outer);
+  if (least > most) return "";
+  return fmt::format("it fits if it is drawn {:.3g} to {:.3g} times as large", least, most);
 }
 
 /// Advice for a drawing of holes that extends to the tread, and may show the material.
 std::string whole_wheel_hint(const DrawnShape& shape, const Case& c, double reach) {
   constexpr double near = 0.01;
   const bool shows_tread = std::abs(reach - c.wheel.outer_radius) < near * c.wheel.outer_radius;
-  if (!drawing_of(shape, c) || shape.fill != Fill::hole || !shows_tread) return "";
+  if (!file_of(shape, c) || shape.fill != Fill::hole || !shows_tread) return "";
   return "if it shows the whole wheel with its tread, put [[shape.annulus]] before it and set as = "
          "\"material\"";
 }
@@ -153,15 +189,17 @@ void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
                                                   point_text(extent.highest), place_text(highest_place))
                                     : fmt::format("reaches radius {:.6g} m at {}{}", extent.low,
                                                   point_text(extent.lowest), place_text(lowest_place));
-  const std::string unit = unit_hint(shape, c, extent.high),
-                    hint = unit.empty() ? whole_wheel_hint(shape, c, extent.high) : unit;
+  std::string hint = unit_hint(shape, c, extent.high);
+  if (hint.empty()) hint = whole_wheel_hint(shape, c, extent.high);
+  if (hint.empty()) hint = scale_hint(shape, c, extent, region);
+  if (hint.empty()) hint = "move it, or make it smaller";
+  if (is_huge(c.wheel)) hint += if_in_millimetres(c.wheel.outer_radius, 2 * extent.high);
   const std::string allowed =
       is_hole ? "between the bands at rim and tread there is only" : "the ring has only";
   found.push_back({with_ring_shape({shape.table}),
                    fmt::format("{} {}; {} {:.6g} m to {:.6g} m", is_hole ? "the hole" : "the material", where,
                                allowed, region.inner, region.outer),
-                   (hint.empty() ? "move it, or make it smaller" : hint) +
-                       if_in_millimetres(c.wheel.outer_radius, 2 * extent.high)});
+                   hint});
 }
 
 void check_crossings(const DrawnShape& shape, Conflicts& found) {

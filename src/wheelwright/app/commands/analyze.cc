@@ -19,6 +19,7 @@
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
@@ -68,9 +69,10 @@ void write_fields(const std::filesystem::path& folder, const RollingReport& repo
     write_atomically(folder / "pressures.svg",
                      plot_svg(pressure_plot(points, report.analysis.azimuths, "Contact pressure")));
   write_pressure_csv<dim>(folder / "pressures.csv", points);
-  write_wheel_pictures(folder, {.prefix = "", .title = report.title, .width = report.width}, shape,
-                       states.domain(),
-                       position_fields(solver, states, worst_position(states.strain_energy())));
+  write_wheel_pictures(
+      folder,
+      {.prefix = "", .title = report.title, .width = report.width, .n_positions = solver.model().n_positions},
+      shape, states.domain(), position_fields(solver, states, most_stressed_position(states)));
 }
 
 std::string check_loads(const std::string& text) {

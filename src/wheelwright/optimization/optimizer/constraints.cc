@@ -37,6 +37,11 @@ double largest_violation(const std::vector<BoundConstraint>& constraints) {
   return largest;
 }
 
+double BoundState::kept_within() const {
+  constexpr double rounding = 1e-6;
+  return is_kept() && bound != 0 && violation > rounding ? feasible_violation : 0;
+}
+
 template <int dim>
 std::vector<BoundState> bound_states(const Evaluation<dim>& evaluation,
                                      const std::vector<double>& multipliers) {

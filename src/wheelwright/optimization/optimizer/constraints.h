@@ -45,6 +45,10 @@ struct BoundState {
   UnitKind unit = UnitKind::energy;
 
   bool is_kept() const { return violation <= feasible_violation; }
+
+  /// The relative tolerance without which the bound would not be kept; 0 if it is kept up to rounding, is not
+  /// kept, or is zero.
+  double kept_within() const;
 };
 
 /// All bounds of an evaluation, with the multipliers of the last step, which may be missing.

@@ -75,14 +75,13 @@ ColourScale colour_scale(std::span<const double> values, double outliers) {
   const auto [minimum, maximum] = std::ranges::minmax(all);
   const auto out = static_cast<std::size_t>(outliers * static_cast<double>(all.size()));
   const double lower = with_smaller(all, out), upper = with_smaller(all, all.size() - 1 - out);
-  return {lower, upper, minimum<lower, maximum> upper};
+  return {lower, upper, minimum, maximum};
 }
 
 ColourScale colour_scale_from_zero(std::span<const double> values, double outliers) {
-  const double upper = colour_scale(values, outliers).upper;
-  if (!(upper > 0)) return {0, 0};
-  const double end = rounded_up(upper);
-  return {0, end, false, std::ranges::any_of(values, [&](double v) { return v > end; })};
+  const ColourScale all = colour_scale(values, outliers);
+  if (!(all.upper > 0)) return {0, 0};
+  return {.lower = 0, .upper = rounded_up(all.upper), .smallest = 0, .largest = all.largest};
 }
 
 std::string level_colour(int level) { return viridis((level + 0.5) / ColourScale::levels); }
@@ -95,11 +94,12 @@ std::string colour_bar(const ColourScale& scale, const std::string& name, const 
   for (int level = 0; level < ColourScale::levels; ++level)
     svg += fmt::format("<rect x=\"{}\" y=\"{:.2f}\" width=\"{}\" height=\"{:.2f}\" fill=\"{}\"/>\n", x,
                        y - step * (level + 1), bar_width, step + 0.3, level_colour(level));
-  if (scale.cut_above)
-    svg +=
-        fmt::format("<path fill=\"{}\" d=\"M{} {}l{} -14 {} 14z\"/>\n", level_colour(ColourScale::levels - 1),
-                    x, y - bar_height, 0.5 * bar_width, 0.5 * bar_width);
-  if (scale.cut_below)
+  if (scale.is_cut_above())
+    svg += fmt::format(
+        "<path fill=\"{}\" d=\"M{} {}l{} -14 {} 14z\"/><text x=\"{}\" y=\"{}\">up to {:.3g}</text>\n",
+        level_colour(ColourScale::levels - 1), x, y - bar_height, 0.5 * bar_width, 0.5 * bar_width,
+        x + bar_width + 9, y - bar_height - 12, scale.largest / prefix.factor);
+  if (scale.is_cut_below())
     svg += fmt::format("<path fill=\"{}\" d=\"M{} {}l{} 14 {} -14z\"/>\n", level_colour(0), x, y,
                        0.5 * bar_width, 0.5 * bar_width);
   for (const double tick : ticks(scale, prefix)) {
@@ -108,8 +108,8 @@ std::string colour_bar(const ColourScale& scale, const std::string& name, const 
         "<path stroke=\"#24292f\" d=\"M{0} {1:.2f}h5\"/><text x=\"{2}\" y=\"{3:.2f}\">{4:.6g}</text>\n",
         x + bar_width, height, x + bar_width + 9, height + 5, tick);
   }
-  svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", x, y - bar_height - 44, escape_xml(name));
-  svg += fmt::format("<text x=\"{}\" y=\"{}\">[{}{}]</text>\n", x, y - bar_height - 24, prefix.symbol,
+  svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", x, y - bar_height - 50, escape_xml(name));
+  svg += fmt::format("<text x=\"{}\" y=\"{}\">[{}{}]</text>\n", x, y - bar_height - 30, prefix.symbol,
                      escape_xml(unit));
   return svg;
 }

@@ -20,7 +20,10 @@ std::string value_text(double value, const std::string& unit);
 /// The values that the colours of a picture represent. Values beyond the ends have the colours of the ends.
 struct ColourScale {
   double lower, upper;
-  bool cut_below = false, cut_above = false;  ///< whether there are such values
+  double smallest = lower, largest = upper;  ///< of the values
+
+  bool is_cut_below() const { return smallest < lower; }
+  bool is_cut_above() const { return largest > upper; }
 
   static constexpr int levels = 32;
   double level(int k) const { return lower + (upper - lower) * k / levels; }
@@ -39,7 +42,8 @@ ColourScale colour_scale_from_zero(std::span<const double> values, double outlie
 /// Colour of what lies between two levels, from 0.
 std::string level_colour(int level);
 
-/// The scale as a bar with round numbers beside it, its lower left corner at (x, y) [pixels].
+/// The scale as a bar with round numbers beside it, its lower left corner at (x, y) [pixels]. An end beyond
+/// which there are values has a tip; the upper one names the largest of them.
 std::string colour_bar(const ColourScale& scale, const std::string& name, const std::string& unit, double x,
                        double y);
 

@@ -135,11 +135,26 @@ Peak drawn_peak(const std::vector<DrawnPiece>& pieces) {
   return peak;
 }
 
+Peak marked_peak(const DeformedMaterial& material, const std::vector<DrawnPiece>& pieces,
+                 const DeformedPicture<2>& picture) {
+  return picture.peak ? Peak{material.drawn(picture.peak->place), picture.peak->value} : drawn_peak(pieces);
+}
+
+/// The scale of the pieces, which knows the largest value in view.
+ColourScale scale_with_peak(const DeformedMaterial& material, const std::vector<DrawnPiece>& pieces,
+                            const DeformedPicture<2>& picture, const PictureView& view) {
+  ColourScale scale = scale_of(pieces, picture.scale);
+  if (pieces.empty()) return scale;
+  const Peak marked = marked_peak(material, pieces, picture);
+  const double peak = view.holds(marked.place) ? marked.value : drawn_peak(pieces).value;
+  scale.largest = std::max(scale.largest, peak);
+  return scale;
+}
+
 std::string peak_svg(const DeformedMaterial& material, const std::vector<DrawnPiece>& pieces,
                      const DeformedPicture<2>& picture, const PictureView& view) {
   if (pieces.empty()) return "";
-  const Peak peak =
-      picture.peak ? Peak{material.drawn(picture.peak->place), picture.peak->value} : drawn_peak(pieces);
+  const Peak peak = marked_peak(material, pieces, picture);
   return peak_mark(view, peak.place, "peak " + value_text(peak.value, escape_xml(picture.scalar.unit)));
 }
 
@@ -166,6 +181,8 @@ std::string facts(const DeformedPicture<dim>& picture) {
   std::string text = "load " + force_text(picture.rim_force.towards_ground, "N");
   text += fmt::format(" \u00b7 {} {:.4g}\u00b0", picture.is_bonded ? "towards" : "contact at",
                       picture.contact_azimuth * 180 / std::numbers::pi);
+  if (picture.most_stressed_of > 1)
+    text += fmt::format(", the most stressed of {} positions", picture.most_stressed_of);
   text += fmt::format(" \u00b7 travel {}", value_text(picture.travel, "m"));
   if (picture.rim.rotation != 0)
     text += fmt::format(" \u00b7 wind-up {:.3g}\u00b0", picture.rim.rotation * 180 / std::numbers::pi);
@@ -223,7 +240,7 @@ std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
                                   picture.contact_azimuth,
                                   picture.is_bonded ? Below::nothing : Below::ground);
   const std::vector<DrawnPiece> pieces = shown_pieces(material, picture, view);
-  const ColourScale scale = scale_of(pieces, picture.scale);
+  const ColourScale scale = scale_with_peak(material, pieces, picture, view);
   const bool is_pressed = !(material.max_press() * view.pixels_per_metre() < 0.5);
   return deformed_document(
       picture,

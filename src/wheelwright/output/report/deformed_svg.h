@@ -22,10 +22,11 @@ enum class ScaleKind {
 template <int dim>
 struct DeformedPicture {
   std::string title;
-  RingField displacement;  ///< dim components [m]
-  double magnification;    ///< of the displacement in the picture
-  double contact_azimuth;  ///< azimuth of the contact point in the body frame [rad]: drawn at the bottom
-  bool is_bonded = false;  ///< the tread to a rigid ring, which is drawn instead of the ground
+  RingField displacement;    ///< dim components [m]
+  double magnification;      ///< of the displacement in the picture
+  double contact_azimuth;    ///< azimuth of the contact point in the body frame [rad]: drawn at the bottom
+  int most_stressed_of = 1;  ///< load positions of a sector
+  bool is_bonded = false;    ///< the tread to a rigid ring, which is drawn instead of the ground
   /// Half the edge of a square view of the contact [m]; absent: the whole wheel.
   std::optional<double> window;
   NamedField scalar;  ///< in an SI unit without prefix, e.g. "von Mises stress" in "Pa"

@@ -70,9 +70,12 @@ std::vector<Rgb> colours(const std::vector<float>& values, const ColourScale& sc
   return result;
 }
 
-ColourScale scale_of(const std::vector<float>& values, ScaleKind kind) {
+ColourScale scale_of(const std::vector<float>& values, const DeformedPicture<3>& picture) {
   const std::vector<double> all(values.begin(), values.end());
-  return kind == ScaleKind::without_tail ? colour_scale_from_zero(all, usual_outliers) : colour_scale(all, 0);
+  ColourScale scale = picture.scale == ScaleKind::without_tail ? colour_scale_from_zero(all, usual_outliers)
+                                                               : colour_scale(all, 0);
+  if (picture.peak) scale.largest = std::max(scale.largest, picture.peak->value);
+  return scale;
 }
 
 /// A rectangle of ground under the wheel.
@@ -144,7 +147,7 @@ std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
   const FieldPoints<3> fields = field_points(surface, lattice);
   const auto displacement = fields.values({"displacement", "m", picture.displacement});
   const auto scalar = fields.values(picture.scalar)[0];
-  const ColourScale scale = scale_of(scalar, picture.scale);
+  const ColourScale scale = scale_of(scalar, picture);
   const auto points = standing_on_the_ground(displaced(surface.points, displacement, lattice, picture), grid,
                                              picture.contact_azimuth);
   std::vector<LitBody> bodies{

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "wheelwright/output/report/cell_means.h"
 #include "wheelwright/output/report/colour_scale.h"
 
 namespace wheelwright {
@@ -154,13 +155,14 @@ std::string peak_mark(const PictureView& view, const Vec<2>& place, const std::s
 }
 
 std::string pressure_mark(const PictureView& view, double depth, std::span<const ContactPoint> points) {
+  const std::vector<ContactPoint> cells = cell_means(points);
   const auto touches = [](const ContactPoint& p) { return p.pressure > 0; };
-  if (std::ranges::none_of(points, touches)) return "";
-  const double peak = std::ranges::max(points, {}, &ContactPoint::pressure).pressure;
+  if (std::ranges::none_of(cells, touches)) return "";
+  const double peak = std::ranges::max(cells, {}, &ContactPoint::pressure).pressure;
   const double ground = view.pixel({0, depth})[1] + 2;
   std::string path;
   double first = 0, last = 0;
-  for (const ContactPoint& p : points) {
+  for (const ContactPoint& p : cells) {
     if (!touches(p)) continue;
     const double x = view.pixel({p.x, 0})[0];
     if (path.empty()) path = fmt::format("M{:.1f} {:.1f}", first = x, ground);
@@ -171,7 +173,7 @@ std::string pressure_mark(const PictureView& view, double depth, std::span<const
              "<path fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\" stroke-width=\"1.5\" d=\"{1}\"/>\n",
              force_colour, path) +
          label(view.pixel(view.centre)[0], ground + pressure_height + 18, "middle", force_colour,
-               "contact pressure, peak " + value_text(peak, "Pa"));
+               "contact pressure, means of cells, up to " + value_text(peak, "Pa"));
 }
 
 std::string undeformed_mark(const PictureView& view, double inner_radius, double outer_radius) {

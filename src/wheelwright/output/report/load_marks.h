@@ -35,7 +35,8 @@ std::string azimuth_mark(const PictureView& view, const Vec<2>& axle, const Vec<
 /// A ring about the place of the largest value, with its text.
 std::string peak_mark(const PictureView& view, const Vec<2>& place, const std::string& label);
 
-/// The contact pressure as a curve below the ground, with its peak and the length of the patch.
+/// The contact pressure as a curve below the ground, through the means of the cells at the tread, with the
+/// largest of them.
 std::string pressure_mark(const PictureView& view, double depth, std::span<const ContactPoint> points);
 
 /// Circles of the undeformed wheel, dashed.

@@ -18,6 +18,7 @@ struct ContactPoint {
   double gap;                 ///< distance to the ground in the deformed state, negative: penetration [m]
   double z = 0;               ///< along the axle, from the middle of the width; in 3D [m]
   double axial_friction = 0;  ///< the traction along the axle; in 3D [Pa]
+  int cell = 0;               ///< at the tread, in which the point lies; counted around the ring
 };
 
 /// Writes one row per point, in the order given, with the azimuth in degrees; atomically. The sum of weight

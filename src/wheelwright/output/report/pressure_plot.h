@@ -7,8 +7,9 @@
 
 namespace wheelwright {
 
-/// The contact pressure over the ground, one curve per load position; of many positions, at most 8 at equal
-/// distances. `points` as contact_points() gives them; `azimuths` of the positions [rad] name the curves.
+/// The contact pressure over the ground, one curve per load position, through the means of the cells; of many
+/// positions, at most 8 at equal distances. `points` as contact_points() gives them; `azimuths` of the
+/// positions [rad] name the curves.
 LinePlot pressure_plot(std::span<const ContactPoint> points, std::span<const double> azimuths,
                        const std::string& title);
 

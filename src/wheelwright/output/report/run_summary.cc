@@ -90,7 +90,7 @@ std::string summary_json(const RunSummary<dim>& summary) {
             {"width_m", summary.after.wheel.grid.width},
             {"before", shape_json(summary.before, summary.minimized)},
             {"after", shape_json(summary.after, summary.minimized)}};
-  for (const SummarizedBound& bound : summary.bounds)
+  for (const SummarizedBound& bound : summary.bounds) {
     json["bounds"].push_back({{"name", bound.name},
                               {"value", bound.value},
                               {"relation", std::string(1, bound.relation)},
@@ -98,6 +98,8 @@ std::string summary_json(const RunSummary<dim>& summary) {
                               {"unit", bound.unit},
                               {"multiplier", bound.multiplier},
                               {"is_kept", bound.is_kept}});
+    if (bound.kept_within > 0) json["bounds"].back()["kept_within"] = bound.kept_within;
+  }
   json["remarks"] = Json::array();
   for (const Remark& remark : summary.remarks)
     json["remarks"].push_back({{"key", remark.key},

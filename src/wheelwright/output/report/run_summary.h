@@ -26,8 +26,9 @@ struct SummarizedBound {
   char relation;      ///< '<', '>' or '='
   double multiplier;  ///< of the objective, per unit of the bound
   bool is_kept;
-  const char* unit;  ///< of value and bound
-  ShownUnit shown;   ///< as tables show them
+  double kept_within;  ///< the relative tolerance if the value is beyond the bound and counts as kept, else 0
+  const char* unit;    ///< of value and bound
+  ShownUnit shown;     ///< as tables show them
 };
 
 /// The result of a run, compared with the wheel that its case gives. Both shapes are solved on a tread of the
@@ -41,6 +42,7 @@ struct RunSummary {
   std::string minimized = {};
   ShownUnit objective = shown_unit(UnitKind::energy, dim);
   std::vector<Remark> remarks = {};  ///< what got clearly worse
+  std::string bounded_peaks = {};    ///< at how many positions bounds on peaks apply; empty without such
   std::string changed_start = {};    ///< how the run's first shape differs from the given wheel, if it does
 };
 

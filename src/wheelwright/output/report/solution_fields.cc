@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/output/report/cell_means.h"
 
 namespace wheelwright {
 namespace {
@@ -186,11 +187,27 @@ double ground_azimuth(const StateSolver<dim>& solver, int position) {
   return solver.all_positions().grounds[position].azimuth(solver.model().grid);
 }
 
+/// The cell at the tread in which each contact point of a column lies, from the column's first azimuth.
+template <int dim>
+std::vector<int> cells_of_points(const TreadSurface<dim>& surface) {
+  std::vector<int> cells(surface.points.size());
+  for (const FaceRow& row : surface.face_rows) {
+    const bool of_displacements = row.first < 2 * std::ssize(surface.points) && row.first % 2 == 0;
+    if (!of_displacements) continue;
+    for (int face = 0; face < row.faces; ++face)
+      for (int point = 0; point < row.points_per_face; ++point)
+        cells[row.observation(face, point) / 2] = face;
+  }
+  return cells;
+}
+
 template <int dim>
 std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const State<dim>& state,
                                            int position) {
   const ObservationRows<dim> rows = solver.tread_surface().rows();
   const ContactPatch<dim>& contact = state.contacts()[position];
+  const std::vector<int> cells = cells_of_points(solver.tread_surface());
+  const int per_column = 1 + std::ranges::max(cells);
   std::vector<ContactPoint> result;
   for (const auto& point : contact.points) {
     const double* observed =
@@ -209,7 +226,8 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
                       .pressure = -point.traction[0],
                       .friction = point.traction[1],
                       .normal_stress = in_ground_frame(rows.traction(point.point))[0],
-                      .gap = point.gap - approach});
+                      .gap = point.gap - approach,
+                      .cell = per_column * point.column + cells[point.point]});
     if constexpr (dim == 3) {
       result.back().z = point.position[2];
       result.back().axial_friction = point.traction[2];
@@ -340,9 +358,8 @@ std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points) {
     double nearest = INFINITY;
     for (const ContactPoint& p : points) nearest = std::abs(p.z) < std::abs(nearest) ? p.z : nearest;
     std::erase_if(points, [&](const ContactPoint& p) { return std::abs(p.z - nearest) > 1e-9; });
-    std::ranges::stable_sort(points, {}, &ContactPoint::x);
   }
-  return points;
+  return cell_means(points);
 }
 
 template decltype(position_fields<2>) position_fields<2>;

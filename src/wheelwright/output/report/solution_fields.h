@@ -80,8 +80,8 @@ RingField repeated_field(const RollingModel<dim>& model, const LevelSet<dim>& se
 template <int dim>
 std::vector<ContactPoint> contact_points(const StateSolver<dim>& solver, const State<dim>& solution);
 
-/// The points for a curve along the ground: all in 2D, in 3D the line nearest to the middle of the width,
-/// sorted along the ground.
+/// The points for a curve along the ground: the cells at the tread (cell_means()), in 3D those of the line
+/// nearest to the middle of the width.
 template <int dim>
 std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points);
 

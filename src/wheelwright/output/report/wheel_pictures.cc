@@ -1,7 +1,5 @@
 #include "wheelwright/output/report/wheel_pictures.h"
 
-#include <algorithm>
-
 #include "wheelwright/base/units.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/output/report/deformed_svg.h"
@@ -15,23 +13,23 @@ namespace {
 
 constexpr double window_in_thicknesses = 0.75;  // half the view of the contact over the ring's thickness
 
-/// The stress on the whole wheel, with the forces on this width [m].
+/// The stress on the whole wheel.
 template <int dim>
-DeformedPicture<dim> stress_picture(const std::string& title, double width,
-                                    const PositionFields<dim>& fields) {
+DeformedPicture<dim> stress_picture(const PictureNames& names, const PositionFields<dim>& fields) {
   NamedField stress = von_mises_field(fields.stress);
   stress.name = "von Mises stress";
-  return {.title = title,
+  return {.title = names.title,
           .displacement = fields.displacement,
           .magnification = picture_magnification(fields.displacement, fields.lattice.grid().outer_radius),
           .contact_azimuth = fields.ground_azimuth,
+          .most_stressed_of = names.n_positions,
           .is_bonded = fields.is_bonded,
           .window = {},
           .scalar = std::move(stress),
           .scale = ScaleKind::without_tail,
           .rim = fields.rim,
           .travel = fields.travel,
-          .rim_force = dim == 2 ? scaled(width, fields.rim_force) : fields.rim_force,
+          .rim_force = dim == 2 ? scaled(names.width, fields.rim_force) : fields.rim_force,
           .contact = fields.contact,
           .peak = fields.von_mises};
 }
@@ -48,10 +46,6 @@ DeformedPicture<dim> with_displacement(DeformedPicture<dim> picture) {
 
 }  // namespace
 
-int worst_position(std::span<const double> strain_energy) {
-  return static_cast<int>(std::ranges::max_element(strain_energy) - strain_energy.begin());
-}
-
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
                           const PositionFields<2>& fields) {
@@ -59,7 +53,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   const auto write = [&](const char* file, const DeformedPicture<2>& picture) {
     write_atomically(folder / (names.prefix + file), deformed_svg(shape, fields.lattice, picture));
   };
-  const auto stress = stress_picture(names.title, names.width, fields);
+  const auto stress = stress_picture(names, fields);
   auto contact = stress;
   contact.magnification = 1;
   contact.window = window_in_thicknesses * (grid.outer_radius - grid.inner_radius);
@@ -75,7 +69,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   const auto write = [&](const char* file, const DeformedPicture<3>& picture) {
     write_atomically(folder / (names.prefix + file), deformed_svg(surface, fields.lattice, picture));
   };
-  const auto stress = stress_picture(names.title, names.width, fields);
+  const auto stress = stress_picture(names, fields);
   write("stress.svg", stress);
   write("displacement.svg", with_displacement(stress));
   write_atomically(folder / (names.prefix + "pressure.svg"),

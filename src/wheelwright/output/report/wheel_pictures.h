@@ -1,26 +1,24 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 
 #include "wheelwright/output/report/solution_fields.h"
 
 namespace wheelwright {
 
-/// The load position with the largest strain energy.
-int worst_position(std::span<const double> strain_energy);
-
-/// The names of a shape's pictures, and the wheel's width, to which forces refer.
+/// The names of a shape's pictures, and what they say about the wheel.
 struct PictureNames {
   std::string prefix;  ///< of the files
   std::string title;
-  double width;  ///< [m]
+  double width;     ///< of the wheel, to which forces refer [m]
+  int n_positions;  ///< load positions of a sector
 };
 
-/// Draws a solved shape in one load position: PREFIXstress.svg, PREFIXstress_contact.svg (the contact at true
-/// scale, with its pressure), PREFIXdisplacement.svg (towards the ground) and PREFIXmesh.svg (the cut grid,
-/// `domain`). In pictures of the whole wheel the displacement is magnified. Throws OutputError.
+/// Draws a solved shape in its most_stressed_position(): PREFIXstress.svg, PREFIXstress_contact.svg (the
+/// contact at true scale, with its pressure), PREFIXdisplacement.svg (towards the ground) and PREFIXmesh.svg
+/// (the cut grid, `domain`). In pictures of the whole wheel the displacement is magnified. Throws
+/// OutputError.
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
                           const PositionFields<2>& fields);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "wheelwright/quantities/analysis/all_positions.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 
 namespace wheelwright {
 namespace {
@@ -80,7 +81,7 @@ template <int dim>
 RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state) {
   const RollingModel<dim>& model = state.model();
   const StrainPeaks<dim>& peaks = state.strain_peaks();
-  const auto worst = std::ranges::max_element(peaks.von_mises) - peaks.von_mises.begin();
+  const int worst = most_stressed_position(state);
   const std::vector<ContactSummary> positions = summaries(state.contacts());
   const Held held = model.travel ? Held::travel : Held::load;
   const std::vector<double> travels = axle_travel(state.positions(), positions),

@@ -15,9 +15,15 @@ std::vector<ContactSummary> contact_summaries(const State<dim>& state) {
 }
 
 template <int dim>
+int most_stressed_position(const State<dim>& state) {
+  const std::vector<double>& peaks = state.strain_peaks().von_mises;
+  return static_cast<int>(std::ranges::max_element(peaks) - peaks.begin());
+}
+
+template <int dim>
 StressPeak<dim> stress_peak(const StateSolver<dim>& solver, const State<dim>& state) {
   const StrainPeaks<dim>& peaks = state.strain_peaks();
-  const auto worst = std::ranges::max_element(peaks.von_mises) - peaks.von_mises.begin();
+  const int worst = most_stressed_position(state);
   return {peaks.von_mises[worst], peaks.von_mises_places[worst],
           state.positions().grounds[worst].azimuth(solver.model().grid)};
 }
@@ -41,9 +47,11 @@ ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const LevelSet<d
 }
 
 template decltype(contact_summaries<2>) contact_summaries<2>;
+template decltype(most_stressed_position<2>) most_stressed_position<2>;
 template decltype(stress_peak<2>) stress_peak<2>;
 template decltype(shape_summary<2>) shape_summary<2>;
 template decltype(contact_summaries<3>) contact_summaries<3>;
+template decltype(most_stressed_position<3>) most_stressed_position<3>;
 template decltype(stress_peak<3>) stress_peak<3>;
 template decltype(shape_summary<3>) shape_summary<3>;
 

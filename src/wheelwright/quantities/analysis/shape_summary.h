@@ -33,6 +33,11 @@ ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const LevelSet<d
 template <int dim>
 std::vector<ContactSummary> contact_summaries(const State<dim>& state);
 
+/// The load position with the largest von Mises stress, by its number in the sector. Of a pair of mirror
+/// images, the first one.
+template <int dim>
+int most_stressed_position(const State<dim>& state);
+
 template <int dim>
 StressPeak<dim> stress_peak(const StateSolver<dim>& solver, const State<dim>& state);
 

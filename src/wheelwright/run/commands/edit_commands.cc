@@ -36,15 +36,28 @@ std::vector<DrawnOutline> brush_outlines(const Paint& paint) {
   return outlines;
 }
 
+std::string what_was_painted(const Paint& paint) {
+  const std::string from = place_text(paint.path.front());
+  if (paint.as == Fill::material) return "material added along a line from " + from;
+  if (paint.path.size() > 1) return "material removed along a line from " + from;
+  return fmt::format("a hole of radius {:.4g} mm added at {}", 1e3 * paint.radius, from);
+}
+
+std::string what_was_moved(const MoveHole& hole) {
+  std::string text = fmt::format("the hole at {}", place_text(hole.at));
+  const bool is_moved = hole.by != std::array<double, 2>{}, is_scaled = hole.scale != 1;
+  if (is_moved || !is_scaled) text += " moved by " + place_text(hole.by);
+  if (is_scaled) text += fmt::format("{} made {:.3g} times as wide", is_moved ? " and" : "", hole.scale);
+  return text;
+}
+
 }  // namespace
 
 CommandResult Paint::execute(RunControl& run) const {
   if (auto refused = refused_line(run.current_case().wheel, path, radius))
     return Refusal{*std::move(refused)};
   const Stroke stroke{{as, brush_outlines(*this)}, 0};
-  return drawn(
-      run, std::span(&stroke, 1),
-      fmt::format("{} painted at {}", as == Fill::hole ? "a hole" : "material", place_text(path.front())));
+  return drawn(run, std::span(&stroke, 1), what_was_painted(*this));
 }
 
 CommandResult MoveHole::execute(RunControl& run) const {
@@ -59,9 +72,7 @@ CommandResult MoveHole::execute(RunControl& run) const {
   for (const Point& p : edge) moved.push_back(centre + Point(by) + scale * (p - centre));
   if (auto refused = refused_hole(run.current_case().wheel, moved)) return Refusal{*std::move(refused)};
   const std::array<Stroke, 2> strokes{filling(edge), Stroke{{Fill::hole, {polygon_outline(moved)}}, 0}};
-  const std::string size = scale == 1 ? "" : fmt::format(" and made {:.3g} times as wide", scale);
-  return drawn(run, strokes,
-               fmt::format("the hole at {} moved by {}{}", place_text(at), place_text(by), size));
+  return drawn(run, strokes, what_was_moved(*this));
 }
 
 CommandResult FillHole::execute(RunControl& run) const {

@@ -13,6 +13,7 @@
 #include "wheelwright/output/report/surface_vtp.h"
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/output/report/wheel_pictures.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/results/run_title.h"
 #include "wheelwright/shape/cut/measure.h"
 
@@ -66,8 +67,7 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                      .after = after}));
 }
 
-/// The wheel under every load case except the first: its pictures at its worst position, in the folder
-/// load_cases.
+/// The wheel under every load case except the first: its pictures, in the folder load_cases.
 template <int dim>
 void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& solver,
                             const LevelSet<dim>& shape, const State<dim>& first) {
@@ -76,15 +76,13 @@ void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& sol
     const auto& [name, model] = run.study.load_cases[k];
     const auto state = first.under(with_loads(first.model(), model), Interrupt());
     if (!state) continue;
-    const int worst = worst_position((*state)->strain_energy());
-    for_each_position<dim>(solver, **state, [&](int position, const PositionFields<dim>& fields) {
-      if (position == worst)
-        write_wheel_pictures(run.folder / "load_cases",
-                             {.prefix = name + "_",
-                              .title = run_title(run.study.source) + ", " + name,
-                              .width = run.study.source.wheel.width},
-                             shape, (*state)->domain(), fields);
-    });
+    write_wheel_pictures(run.folder / "load_cases",
+                         {.prefix = name + "_",
+                          .title = run_title(run.study.source) + ", " + name,
+                          .width = run.study.source.wheel.width,
+                          .n_positions = model.n_positions},
+                         shape, (*state)->domain(),
+                         position_fields(solver, **state, most_stressed_position(**state)));
   }
 }
 
@@ -114,11 +112,14 @@ void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>
   const State<dim>& solution = *shown.ended.solution;
   if (!rolling_) rolling_.emplace(run.folder, shape, *shown.ended.solver, solution);
   rolling_->write(shown.position, shown.fields);
-  if (shown.position != worst_position(solution.strain_energy())) return;
+  if (shown.position != most_stressed_position(solution)) return;
   write_surface(run, shape, shown.fields);
-  write_wheel_pictures(
-      run.folder, {.prefix = "", .title = run_title(run.study.source), .width = run.study.source.wheel.width},
-      shape, solution.domain(), shown.fields);
+  write_wheel_pictures(run.folder,
+                       {.prefix = "",
+                        .title = run_title(run.study.source),
+                        .width = run.study.source.wheel.width,
+                        .n_positions = run.study.model().n_positions},
+                       shape, solution.domain(), shown.fields);
 }
 
 template class ResultFiles<2>;

@@ -16,6 +16,7 @@
 #include "wheelwright/run/checkpoints/history.h"
 #include "wheelwright/run/checkpoints/provenance.h"
 #include "wheelwright/run/observers/failure_report.h"
+#include "wheelwright/run/results/bounded_peaks.h"
 #include "wheelwright/run/results/run_title.h"
 #include "wheelwright/run/results/stop_text.h"
 #include "wheelwright/run/study/case_report.h"
@@ -182,6 +183,7 @@ std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel)
       "Rolling is a sequence of {} load positions per sector, each in equilibrium: no inertia, no rolling "
       "resistance.",
       c.load.positions));
+  if (const std::string peaks = bounded_peaks(c); !peaks.empty()) result.push_back(peaks);
   if (dim == 2)
     result.push_back(
         fmt::format("The wheel and its load are constant over the width ({}): forces along the axle and "

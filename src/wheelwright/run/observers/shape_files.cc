@@ -6,6 +6,7 @@
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/output/report/wheel_pictures.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/results/run_title.h"
 
 namespace wheelwright {
@@ -52,8 +53,7 @@ template <int dim>
 void ShapeFiles<dim>::write(const TrialDone<dim>& done, const RunView<dim>& run) {
   const StateSolver<dim>& solver = *run.study.solver;
   const State<dim>& solution = *done.trial.solution;
-  const PositionFields<dim> worst =
-      position_fields(solver, solution, worst_position(solution.strain_energy()));
+  const PositionFields<dim> worst = position_fields(solver, solution, most_stressed_position(solution));
   auto fields = named_fields(worst);
   if (const auto gradient = shape_gradient_field(done.state, run.evolver))
     fields.push_back(
@@ -77,9 +77,10 @@ void ShapePictures<dim>::operator()(const Event<dim>& event, const RunView<dim>&
       run.folder / "shapes",
       {.prefix = fmt::format("shape_{:04d}_", done->state.iteration),
        .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration),
-       .width = run.study.source.wheel.width},
+       .width = run.study.source.wheel.width,
+       .n_positions = run.study.model().n_positions},
       done->state.shape, solution.domain(),
-      position_fields(*run.study.solver, solution, worst_position(solution.strain_energy())));
+      position_fields(*run.study.solver, solution, most_stressed_position(solution)));
 }
 
 template class ShapeFiles<2>;

@@ -9,8 +9,8 @@ namespace wheelwright {
 
 // Files of intermediate shapes.
 
-/// Writes shapes/shape_NNNN.vtu with the fields of the worst load position, as often as the case says, and
-/// shapes.pvd for all of them.
+/// Writes shapes/shape_NNNN.vtu with the fields of the most stressed load position, as often as the case
+/// says, and shapes.pvd for all of them.
 template <int dim>
 class ShapeFiles : public Observer<dim> {
  public:

@@ -1,10 +1,8 @@
 #include "wheelwright/run/results/shown_wheel.h"
 
-#include <span>
-
 #include "wheelwright/output/report/shape_boundary.h"
 #include "wheelwright/output/report/surface_vtp.h"
-#include "wheelwright/output/report/wheel_pictures.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 
 namespace wheelwright {
 namespace {
@@ -60,7 +58,7 @@ ShownPositions<3>::ShownPositions(const SolvedShape<3>& solved)
     : wheel_{page_surface(solved, solved.solver->model().n_positions), {}},
       points_(vertices(wheel_.mesh, solved)) {
   if (page_bytes(wheel_.mesh, solved.solver->model().n_positions) > most_page_bytes)
-    only_ = worst_position(solved.solution->strain_energy());
+    only_ = most_stressed_position(*solved.solution);
 }
 
 void ShownPositions<3>::add(int position, const PositionFields<3>& fields) {

@@ -17,7 +17,7 @@ struct SolvedShape {
 };
 
 /// Collects the load positions of a shape for the page, one after the other. In 3D, if all of them are too
-/// large for the page, keeps only the worst one.
+/// large for the page, keeps only the most stressed one.
 template <int dim>
 class ShownPositions;
 

@@ -5,11 +5,11 @@ namespace wheelwright {
 std::string text(StopReason reason) {
   switch (reason) {
     case StopReason::converged:
-      return "converged";
+      return "converged within optimizer.tolerance";
     case StopReason::iterations:
       return "ended after the given number of shapes";
     case StopReason::no_descent:
-      return "converged, no step gives a better shape";
+      return "ended, no step gives a better shape";
     case StopReason::gave_up:
       return "gave up, no trial shape could be computed";
     case StopReason::failed_start:

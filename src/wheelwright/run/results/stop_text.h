@@ -6,7 +6,8 @@
 
 namespace wheelwright {
 
-/// Why a run ended, as readable text, e.g. "converged"; to_string() is for programs.
+/// Why a run ended, as readable text, e.g. "ended, no step gives a better shape"; to_string() is for
+/// programs.
 std::string text(StopReason reason);
 
 /// The same for a reason given by its to_string(); any other text is returned unchanged.

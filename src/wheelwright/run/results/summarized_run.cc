@@ -4,6 +4,7 @@
 
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/run/results/bounded_peaks.h"
 #include "wheelwright/run/results/given_wheel.h"
 #include "wheelwright/run/results/remarks.h"
 #include "wheelwright/run/results/run_title.h"
@@ -21,8 +22,15 @@ template <int dim>
 std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state, const Wheel& wheel) {
   std::vector<SummarizedBound> result;
   for (const BoundState& b : bound_states(state.evaluation, state.memory.multipliers))
-    result.push_back({b.name, b.value, b.bound, b.relation, b.multiplier, b.is_kept(), unit<dim>(b.unit),
-                      shown_unit(b.unit, dim, wheel.width)});
+    result.push_back({.name = b.name,
+                      .value = b.value,
+                      .bound = b.bound,
+                      .relation = b.relation,
+                      .multiplier = b.multiplier,
+                      .is_kept = b.is_kept(),
+                      .kept_within = b.kept_within(),
+                      .unit = unit<dim>(b.unit),
+                      .shown = shown_unit(b.unit, dim, wheel.width)});
   return result;
 }
 
@@ -45,6 +53,7 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>&
           .minimized = minimized_text(study.source.objective.minimize, study.source.wheel),
           .objective = shown_unit(study.source.objective.minimize, study.source.wheel),
           .remarks = std::move(worse),
+          .bounded_peaks = bounded_peaks(study.source),
           .changed_start = changed_start(study, start)};
 }
 

@@ -129,8 +129,10 @@ template <int dim>
 std::string text(const BoundState& bound, const PolarGrid<dim>& grid) {
   const char* words = bound.relation == '<' ? "at most" : bound.relation == '>' ? "at least" : "equal to";
   const ShownUnit shown = shown_unit(bound.unit, dim, grid.width);
-  return fmt::format("{} = {}, {} {} {}", bound.name, shown_text(bound.value, shown),
-                     bound.is_kept() ? "is" : "is not", words, shown_text(bound.bound, shown));
+  const double within = bound.kept_within();
+  return fmt::format("{} = {}, {} {} {}{}", bound.name, shown_text(bound.value, shown),
+                     bound.is_kept() ? "is" : "is not", words, shown_text(bound.bound, shown),
+                     within > 0 ? fmt::format(" within {:g} %", 100 * within) : "");
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                   \

@@ -30,7 +30,7 @@ template <int dim>
 Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const StateSolver<dim>& solver,
                                                             const LevelSet<dim>& initial);
 
-/// One line, in the units of tables: name, value, relation and limit.
+/// One line, in the units of tables: name, value, relation and limit, and the tolerance if it is needed.
 template <int dim>
 std::string text(const BoundState& bound, const PolarGrid<dim>& grid);
 

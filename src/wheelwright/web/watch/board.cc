@@ -26,7 +26,8 @@ void Board<dim>::show(std::shared_ptr<const WatchedShape<dim>> shape) {
                      .objective = shape->objective,
                      .mean_travel = measure_named(*shape, "mean_travel"),
                      .run_out = measure_named(*shape, "run_out"),
-                     .volume_fraction = shape->measure / sector_measure<dim>(shape->psi.lattice.grid())};
+                     .volume_fraction = shape->measure / sector_measure<dim>(shape->psi.lattice.grid()),
+                     .initial_objective = shape->initial_objective};
   update([&](BoardView<dim>& view) {
     view.proposed.reset();
     if (!view.first) view.first = shape;

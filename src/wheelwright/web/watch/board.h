@@ -38,6 +38,9 @@ struct HistoryPoint {
   long version;  ///< of the board when the shape arrived
   int shape;
   double objective, mean_travel, run_out, volume_fraction;  ///< SI units
+  /// Of the initial shape: objectives can be compared where it is the same, not across a new load, new
+  /// weights or another grid.
+  double initial_objective;
 };
 
 enum class Activity { starting, computing, paused, settled, ended };

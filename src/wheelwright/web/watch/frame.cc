@@ -147,7 +147,8 @@ Json bound_states_json(const WatchedShape<dim>& shape) {
                       {"value", number(bound.value)},
                       {"relation", std::string(1, bound.relation)},
                       {"limit", bound.bound},
-                      {"is_kept", bound.is_kept()}});
+                      {"is_kept", bound.is_kept()},
+                      {"kept_within", bound.kept_within()}});
   return bounds;
 }
 
@@ -204,8 +205,8 @@ std::string frame_json(const BoardView<dim>& view, const std::vector<HistoryPoin
             {"is_refusal", view.is_refusal}};
   Json points = Json::array();
   for (const HistoryPoint& p : curve)
-    points.push_back(
-        {p.shape, number(p.objective), number(p.mean_travel), number(p.run_out), p.volume_fraction});
+    points.push_back({p.shape, number(p.objective), number(p.mean_travel), number(p.run_out),
+                      p.volume_fraction, number(p.initial_objective)});
   json["curve"] = std::move(points);
   if (view.shape) {
     const WatchedShape<dim>& shape = *view.shape;

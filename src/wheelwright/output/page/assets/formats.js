@@ -24,6 +24,9 @@ const formats = (() => {
   // The same with one decimal.
   const briefChange = (before, after) => change(before, after).replace(/(\.\d)\d* %/, "$1\u2009%");
 
+  // The tolerance due to which a bound counts as kept, after that word; "" if none is needed.
+  const within = (tolerance) => tolerance ? ` within ${Number((100 * tolerance).toPrecision(2))} %` : "";
+
   const minutes = (seconds) => seconds < 100 ? `${seconds.toFixed(1)} s` : `${(seconds / 60).toFixed(1)} min`;
 
   // The largest of 1, 2 and 5 times a power of ten that is not above the wanted magnification, at least 1.
@@ -39,13 +42,17 @@ const formats = (() => {
     return current > 0.4 * wanted && current < 1.25 * wanted ? current : roundMagnification(wanted);
   }
 
-  // The labels of a colour scale at the given shares of its length; the last one has the unit.
-  const scaleLabels = (shares, { end, unit, power = 1 }) => shares.map((t) =>
-    `${Number((t ** power * end).toPrecision(3))}${t === 1 ? ` ${unit}` : ""}`);
+  // The labels of a colour scale at the given shares of its length. The last one has the unit, and names the peak if that
+  // is above the end of the colours.
+  function scaleLabels(shares, { end, unit, power = 1, peak = end }) {
+    const digits = (value) => String(Number(value.toPrecision(3)));
+    const beyond = Number(digits(peak)) > Number(digits(end)) ? `, up to ${digits(peak)}` : "";
+    return shares.map((t) => digits(t ** power * end) + (t === 1 ? `${beyond} ${unit}` : ""));
+  }
 
   const sentence = (text) => text[0].toUpperCase() + text.slice(1);
   const words = (identifier) => identifier.replaceAll("_", " ");
 
-  return { degree, shown, short, change, briefChange, minutes, roundMagnification, steadyMagnification,
+  return { degree, shown, short, change, briefChange, within, minutes, roundMagnification, steadyMagnification,
     scaleLabels, sentence, words };
 })();

@@ -2,7 +2,7 @@
 // What the page of a run derives from a view ("frame") of the run, from the numbers of a shape, and from pictures of the
 // loaded wheel, as the server sends them.
 const frameChanges = (() => {
-  const { short, words, sentence } = formats;
+  const { short, words, sentence, within } = formats;
 
   const labels = { volume_fraction: "material", mass_kg: "mass", mean_travel_m: "travel", stiffness_N_per_m: "stiffness",
     run_out_m: "run-out", force_variation_N: "force variation", peak_pressure_Pa: "peak pressure",
@@ -22,10 +22,11 @@ const frameChanges = (() => {
         isLate: numbers.shape_version !== frame.shape_version && now[key] === numbers.now[key] && key !== "volume_fraction" }));
   }
 
-  // The row of a bound: { name, unit, value, limit, isKept }.
-  function boundRow({ name, shown: { unit, factor }, value, relation, limit, is_kept: isKept }) {
+  // The row of a bound: { name, unit, value, limit, isKept, state }.
+  function boundRow({ name, shown: { unit, factor }, value, relation, limit, is_kept: isKept, kept_within: tolerance }) {
     const sign = { "<": "\u2264", ">": "\u2265", "=": "=" }[relation];
-    return { name: words(name), unit, value: short(value * factor), limit: `${sign} ${short(limit * factor)}`, isKept };
+    return { name: words(name), unit, value: short(value * factor), limit: `${sign} ${short(limit * factor)}`, isKept,
+      state: isKept ? `met${within(tolerance)}` : "not met" };
   }
 
   // A warning as its first clause and the rest, which is "" if there is but one clause.
@@ -36,6 +37,16 @@ const frameChanges = (() => {
 
   // A new list: at most `most` entries, the newest ones.
   const newest = (list, added, most) => [...list, ...added].slice(-most);
+
+  // The newest points of the curve of shapes whose objectives can be compared: those since the initial shape has the same
+  // objective as at the last point, so since the last change of load, weights or grid.
+  function comparable(curve) {
+    const first = ([, , , , , objective]) => objective, now = first(curve.at(-1) ?? []);
+    const isSame = (point) => first(point) === now || Math.abs(first(point) / now - 1) < 1e-9;
+    let from = curve.length;
+    while (from > 0 && isSame(curve[from - 1])) --from;
+    return curve.slice(from);
+  }
 
   // What identifies a picture of the loaded wheel.
   const pictureKey = ({ shape_version: version, load_case: loadCase, position }) => `${version} ${loadCase} ${position}`;
@@ -49,5 +60,5 @@ const frameChanges = (() => {
   const travelCurve = (travel_m, sectors) => ({ x: [...travel_m, 0].map((_, k) => k * 360 / sectors / travel_m.length),
     y: [...travel_m, travel_m[0]].map((t) => t * 1e3) });
 
-  return { numberRows, boundRow, clauses, newest, pictureKey, isSameShape, sameOutline, travelCurve };
+  return { numberRows, boundRow, clauses, newest, comparable, pictureKey, isSameShape, sameOutline, travelCurve };
 })();

@@ -76,7 +76,7 @@
       "The loaded wheel as a lit surface; arrow keys turn it, plus and minus change its size" :
       "The loaded wheel, coloured by von Mises stress" });
     const ground = element("canvas", { "aria-hidden": "true", style: "position:absolute;inset:0" });
-    const n = run.fields.positions.length;
+    const n = run.fields.positions.length, peak = reportTexts.peakStress(run, loadCase);
     const slider = element("input", { type: "range", min: 0, max: n - 1, value: 0, id: `${id}-position` });
     const button = element("button", { type: "button", id: `${id}-roll` }, "Roll");
     const { best, all } = reportTexts.magnifications(run.outer_radius_m, run.fields.full_displacement_m);
@@ -100,8 +100,8 @@
     const draw = () => {
       const i = Number(slider.value), magnified = Number(choice.value);
       if (paint) paint(i, magnified, kind.value);
-      scale(paint?.kinds?.[kind.value] ?? { name: "von Mises stress, on a scale of square roots",
-        end: run.fields.full_stress_Pa * 1e-6, unit: "MPa", power: 2 });
+      scale({ ...(paint?.kinds?.[kind.value] ?? { name: "von Mises stress, on a scale of square roots",
+        end: run.fields.full_stress_Pa * 1e-6, unit: "MPa", power: 2 }), ...(kind.value === "stress" ? { peak } : {}) });
       if (!is_surface) drawGround(ground, run);
       const azimuth = run.fields.positions[i].azimuth_rad, numbers = reportTexts.positionNumbers(numbersOfPositions, azimuth);
       caption.textContent = `${loadCase ? `Load case ${loadCase}. ` : ""}Ground at azimuth ${shown(azimuth * degree)}\u00b0${numbers}. ` +

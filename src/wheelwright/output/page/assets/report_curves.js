@@ -40,8 +40,8 @@ const reportCurves = (() => {
         colours: stress.map((v) => v === most ? curveColours[1] : curveColours[0]) } };
   }
 
-  const pressures = (run) => ({ title: run.dimension === 3 ? "Contact pressure in the middle of the width, all load positions" :
-    "Contact pressure of all load positions", x: "along the ground [mm]", y: "[MPa]", options: {},
+  const pressures = (run) => ({ x: "along the ground [mm]", y: "[MPa]", options: {},
+    title: `Contact pressure${run.dimension === 3 ? " in the middle of the width" : ""} of all load positions, means of cells`,
     curves: run.pressures.map((p, k) => ({ name: `position ${k + 1}`, x: p.x_m.map((v) => v * 1e3),
       y: p.pressure_Pa.map((v) => v * 1e-6) })) });
 

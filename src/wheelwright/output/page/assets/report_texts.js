@@ -1,7 +1,7 @@
 "use strict";
 // The tables and sentences of a report, as plain texts.
 const reportTexts = (() => {
-  const { degree, shown, change, minutes, sentence, words } = formats;
+  const { degree, shown, change, within, minutes, sentence, words } = formats;
   const none = "\u2013";
 
   // Columns of wheels with their change relative to the first one, in groups that may have a name: `names`, those of the
@@ -42,7 +42,7 @@ const reportTexts = (() => {
 
   // A bound at the last shape that the run computed, in the units of tables: the texts of its row, below boundTitles.
   function boundRow(run, k) {
-    const { name, value: last, bound: limit, relation, multiplier, is_kept: isKept } = run.summary.bounds[k];
+    const { name, value: last, bound: limit, relation, multiplier, is_kept: isKept, kept_within: tolerance } = run.summary.bounds[k];
     const column = Object.keys(run.history).find((one) => one.startsWith(`bounded ${name} [`));
     const before = (run.history[column] ?? []).find((value) => value !== null);
     const { unit, factor } = run.bound_units[k];
@@ -51,7 +51,8 @@ const reportTexts = (() => {
     return [`${words(name)} [${unit}]`, `${{ "<": "at most", ">": "at least", "=": "equal to" }[relation]} ${shown(bound)}`,
       before === undefined ? none : shown(before * factor), shown(value), shown(margin),
       bound ? shown(100 * margin / Math.abs(bound)) : none,
-      !isKept ? "not kept" : relation === "=" || multiplier !== 0 ? "active" : "not active",
+      !isKept ? "not kept" : (relation === "=" || multiplier !== 0 ? "active" : "not active") +
+        (tolerance ? `, kept${within(tolerance)}` : ""),
       `${shown(price)}${price ? ` ${run.objective.unit} per ${unit}` : ""}`];
   }
 
@@ -64,8 +65,10 @@ const reportTexts = (() => {
     if (Number.isFinite(before.stiffness_N_per_m) && Number.isFinite(after.stiffness_N_per_m))
       facts.push(`the stiffness by ${change(before.stiffness_N_per_m, after.stiffness_N_per_m)}`);
     const broken = all.filter(({ is_kept }) => !is_kept).length;
+    const tolerance = within(Math.max(0, ...all.map(({ kept_within: one }) => one ?? 0)));
     if (all.length) facts.push(broken ? `${broken} of ${all.length} bounds ${broken > 1 ? "are" : "is"} not kept` :
-      all.length > 2 ? `all ${all.length} bounds are kept` : all.length > 1 ? "both bounds are kept" : "the bound is kept");
+      (all.length > 2 ? `all ${all.length} bounds are kept` : all.length > 1 ? "both bounds are kept" : "the bound is kept") +
+        tolerance);
     facts.push(run.flags.length === 0 ? "there are no remarks" :
       `there ${run.flags.length > 1 ? `are ${run.flags.length} remarks` : "is a remark"} below`);
     return sentence(`${facts.slice(0, -1).join(", ")}${facts.length > 1 ? "; " : ""}${facts.at(-1)}.`);
@@ -126,6 +129,12 @@ const reportTexts = (() => {
       `${shown(numbers.peak_pressure_Pa[k] * 1e-6)} MPa, peak stress ${shown(numbers.peak_von_mises_Pa[k] * 1e-6)} MPa`;
   }
 
+  // The largest stress of all load positions under a load case, in MPa; undefined if the run has no such number.
+  function peakStress({ summary }, loadCase) {
+    const after = summary?.after, numbers = !loadCase || loadCase === after?.load_case ? after : after?.load_cases?.[loadCase];
+    return Number.isFinite(numbers?.peak_von_mises_Pa) ? numbers.peak_von_mises_Pa * 1e-6 : undefined;
+  }
+
   // The magnifications to choose from, and the best one of them.
   function magnifications(outerRadius, displacement) {
     const best = formats.roundMagnification(0.03 * outerRadius / displacement);
@@ -133,5 +142,5 @@ const reportTexts = (() => {
   }
 
   return { comparison, beforeAndAfter, lastWheels, boundTitles, boundRow, verdict, rejectedTrials, answers, remark, eventsTitle,
-    positionNumbers, magnifications };
+    positionNumbers, peakStress, magnifications };
 })();

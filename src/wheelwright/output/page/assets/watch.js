@@ -1,7 +1,7 @@
 "use strict";
 (() => {
   const { colour, element, chart } = parts, { shown, short, briefChange, words } = formats;
-  const { numberRows, boundRow, clauses, newest, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
+  const { numberRows, boundRow, clauses, newest, comparable, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
   const at = (id) => document.getElementById(id);
 
   // --- The server -------------------------------------------------------------------------------------
@@ -42,7 +42,8 @@
   // --- What is shown ----------------------------------------------------------------------------------
 
   let frame = null;   // the newest view of the run
-  let curve = [];     // [shape, objective, mean travel, run-out, volume fraction] of the shapes so far
+  let curve = [];     // of the shapes so far: [shape, objective, mean travel, run-out, volume fraction, objective of the
+                      // initial shape]
   const mostPoints = 4000;
   const wheel = at("wheel");
   const isSolid = () => frame?.wheel?.dimension === 3;
@@ -236,12 +237,12 @@
   // --- Editing ----------------------------------------------------------------------------------------
 
   const tools = [["look", "Look", "Drag to move the picture, turn the mouse wheel to zoom. With the keys: arrows, plus, minus, 0."],
-    ["move", "Move", "Drag a hole. With the keys: arrows, Enter to pick it up, arrows, Enter to drop it."],
-    ["resize", "Resize", "Drag away from a hole's centre or towards it. With the keys: arrows, Enter, arrows, Enter."],
-    ["add", "Add", "Drag from the centre of the new hole outwards, or click. With the keys: arrows, Enter, Enter."],
-    ["fill", "Delete", "Click a hole to fill it. With the keys: arrows, Enter, or Delete with any tool."],
-    ["paint", "Paint", "Draw material with the mouse. With the keys: arrows, Enter, arrows, Enter."],
-    ["erase", "Erase", "Erase material with the mouse. With the keys: arrows, Enter, arrows, Enter."]];
+    ["move", "Move", "Moves a hole: drag it. With the keys: arrows, Enter to pick it up, arrows, Enter to drop it."],
+    ["resize", "Resize", "Enlarges a hole if you drag away from its centre, and shrinks it if you drag towards it. With the keys: arrows, Enter, arrows, Enter."],
+    ["add", "Add", "Adds a round hole: drag from its centre outwards, or click. With the keys: arrows, Enter, Enter."],
+    ["fill", "Delete", "Fills a hole with material: click it. With the keys: arrows, Enter, or Delete with any tool."],
+    ["paint", "Paint", "Adds material along the line that you draw. With the keys: arrows, Enter, arrows, Enter."],
+    ["erase", "Erase", "Removes material along the line that you draw. With the keys: arrows, Enter, arrows, Enter."]];
   const brushes = { paint: "material", erase: "hole" }, usingTip = ["add", "paint", "erase"];
   for (const [id, text, title] of tools) {
     const button = element("button", { type: "button", id: `tool-${id}`, "aria-pressed": String(id === "look"), title },
@@ -517,10 +518,10 @@
 
   function showBounds() {
     at("bounds").hidden = frame.bounds.length === 0;
-    at("bound-rows").replaceChildren(...frame.bounds.map(boundRow).map(({ name, unit, value, limit, isKept }) =>
+    at("bound-rows").replaceChildren(...frame.bounds.map(boundRow).map(({ name, unit, value, limit, isKept, state }) =>
       element("tr", {}, element("th", { scope: "row" }, `${name} `, element("span", { class: "unit" }, unit)),
         element("td", { class: "now" }, value), element("td", {}, limit),
-        element("td", { class: isKept ? "good" : "bad" }, isKept ? "met" : "not met"))));
+        element("td", { class: isKept ? "good" : "bad" }, state))));
   }
 
   function showWarnings() {
@@ -618,7 +619,10 @@
   const betweenCurves = 250;
   let curvesDrawn = 0, curvesOf = 0;  // when, and of which view
   function showCurves() {
-    charts.objective.update([{ name: "objective", x: curve.map((p) => p[0]), y: curve.map((p) => p[1]) }]);
+    const since = comparable(curve);
+    charts.objective.update([{ name: "objective", x: since.map((p) => p[0]), y: since.map((p) => p[1]) }]);
+    charts.objective.figure.firstChild.textContent =
+      `Objective by shape${since.length < curve.length ? ", since the last change" : ""}`;
     charts.travel.update([{ name: "travel", ...travelCurve(frame.travel_m, frame.wheel.sectors) }]);
     charts.pressure.update([{ name: "pressure", x: frame.pressure.x_m.map((x) => x * 1e3),
       y: frame.pressure.pressure_Pa.map((p) => p * 1e-6) }]);
