@@ -5,7 +5,8 @@ import re
 import unittest
 from pathlib import Path
 
-PAGES = sorted([Path("README.md"), Path("CONTRIBUTING.md"), Path("CHANGELOG.md"), *Path("docs").glob("*.md")])
+PAGES = sorted([Path("README.md"), Path("CONTRIBUTING.md"), Path("CHANGELOG.md"), *Path("docs").glob("*.md"),
+                *Path("examples").glob("*/README.md")])
 CODE_BLOCK = re.compile(r"^ *```.*?^ *```$|^(?:    [^\n]*\n)+", re.MULTILINE | re.DOTALL)
 
 SOURCE_ENDINGS = (".cc", ".h", ".in", ".cmake", ".py", ".sh", ".js", ".html", ".css", ".toml", ".txt", ".json", ".bash")
