@@ -24,6 +24,10 @@ install(FILES ${PROJECT_BINARY_DIR}/wheelwright.pc DESTINATION ${CMAKE_INSTALL_L
 
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs cases examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+if(WHEELWRIGHT_SITE)
+  add_custom_target(site ALL COMMAND ${PROJECT_SOURCE_DIR}/scripts/build-docs ${PROJECT_BINARY_DIR}/docs VERBATIM)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+endif()
 install(FILES packaging/wheelwright.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES packaging/wheelwright.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME wheelwright COMPONENT program)

@@ -20,6 +20,9 @@ test_packages=(
   nodejs
   clang-format shellcheck universal-ctags
 )
+# What makes the site of the documents: its pages, their formulas, the reference of the headers. The tests make it too.
+site_packages=(python3-sphinx python3-myst-parser furo katex fonts-katex doxygen)
+test_packages+=("${site_packages[@]}")
 build_folder=build/release
 
 fail() {

@@ -19,6 +19,8 @@ offers() {
 }
 
 offers "watch" -- wheelwright wa
+offers "docs" -- wheelwright do
+offers "--print" -- wheelwright docs --p
 offers "resume report reference" -- wheelwright re
 offers "paper16 paper16-3d" -- wheelwright init --preset paper16
 offers "load.mass=" -- wheelwright sweep case.toml load.mas

@@ -5,7 +5,8 @@ import re
 import unittest
 from pathlib import Path
 
-PAGES = sorted([Path("README.md"), Path("CONTRIBUTING.md"), Path("CHANGELOG.md"), *Path("docs").glob("*.md")])
+PAGES = sorted([Path("README.md"), Path("CONTRIBUTING.md"), Path("CHANGELOG.md"), *Path("docs").glob("*.md"),
+                *Path("examples").glob("*/README.md")])
 CODE_BLOCK = re.compile(r"^ *```.*?^ *```$|^(?:    [^\n]*\n)+", re.MULTILINE | re.DOTALL)
 
 SOURCE_ENDINGS = (".cc", ".h", ".in", ".cmake", ".py", ".sh", ".js", ".html", ".css", ".toml", ".txt", ".json", ".bash")
@@ -38,6 +39,11 @@ def cells(line):
     """Of a line of a table: neither bars in code nor escaped ones separate."""
     plain = re.sub(r"`[^`]*`|\\\||\$[^$]*\$", "", line.strip())
     return plain.strip("|").count("|") + 1
+
+
+def numbers(text):
+    """Those that a text states, each with whether it is a percentage."""
+    return {(float(number), bool(percent)) for number, percent in re.findall(r"(?<![\w.])(\d+(?:\.\d+)?(?:e-?\d+)?)( %)?(?!\w)", text)}
 
 
 class Docs(unittest.TestCase):
@@ -104,6 +110,21 @@ class Docs(unittest.TestCase):
                         wrong.append(f"{page}: {name}")
         self.assertEqual(wrong, [])
         self.assertGreater(n_names, 400)
+
+    def test_the_claims_have_the_numbers_of_the_tables_and_commands_that_exist(self):
+        claims, _, tables = text_of(Path("docs/verification.md")).partition("\n## ")
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in claims.splitlines() if line.startswith("| ")]
+        known = numbers(tables + text_of(Path("docs/performance.md")))
+        tests = {f"{suite}.{name}" for file in Path("tests").glob("*_test.cc")
+                 for suite, name in re.findall(r"^TEST(?:_F|_P)?\((\w+), (\w+)\)", text_of(file), re.MULTILINE)}
+        self.assertTrue(12 <= len(rows) - 1 <= 16, len(rows))
+        for claim, _, measured, command in rows[1:]:
+            self.assertEqual(numbers(measured) - known, set(), claim)
+            first, *arguments = command.strip("`").split()
+            if "-R" in arguments:
+                self.assertTrue(any(arguments[arguments.index("-R") + 1] in name for name in tests), command)
+            else:
+                self.assertTrue(all(Path(word).exists() for word in [first, *arguments] if "/" in word), command)
 
     def test_generated_parts_have_a_begin_and_an_end(self):
         for page in PAGES:

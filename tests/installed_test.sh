@@ -80,6 +80,7 @@ fi
 for file in LICENSE README.md CHANGELOG.md docs/method.md cases/holes16.toml; do
   [[ -s $documents/$file ]] || fail "not installed: $file"
 done
+[[ $("$prefix/bin/wheelwright" docs --print) == "$documents"/* ]] || fail "the installed program does not find its documents"
 
 [[ -z $(foreign_includes) ]] || fail "headers include what is not public:" "$(foreign_includes)"
 compiles "${headers[@]}"

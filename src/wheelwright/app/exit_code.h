@@ -8,7 +8,7 @@ enum ExitCode {
   exit_bug = 1,
   exit_usage = 2,          ///< wrong command line, or a case that is wrong or cannot be read
   exit_no_solution = 3,    ///< the solver gave up
-  exit_refused = 4,        ///< would overwrite, shared folder, faulty outline, or too little memory
+  exit_refused = 4,        ///< would overwrite, shared folder, faulty outline, too little memory, no documents
   exit_input_output = 5,   ///< a file could not be written
   exit_checkpoint = 6,     ///< no usable checkpoint
   exit_unexpected = 7,     ///< the run is done, but an expectation of the case is not met

@@ -121,8 +121,8 @@ HoleRange room_for_holes(const Case& c);
 /// Whether the initial shape differs from the full ring.
 bool has_holes(const Case& c);
 
-/// The `[[holes.*]]` of one sector, from rings and circles; those of the other sectors are their rotations. A
-/// hole may lie in any sector and cross the interfaces between sectors.
+/// The holes of one sector, from `[[holes.ring]]` and `[[holes.circle]]`; those of the other sectors are
+/// their rotations. A hole may lie in any sector and cross the interfaces between sectors.
 std::vector<Circle> sector_holes(const Case& c);
 
 /// The holes of one sector that exist only in 3D.

@@ -14,7 +14,7 @@ void grid_conflicts(const Case& c, Conflicts& found);
 /// `shapes` are the drawn shapes of the case.
 void hole_conflicts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found);
 void saved_shape_conflicts(const Case& c, Conflicts& found);
-/// Keys of `[[shape.*]]` that contradict each other, holes beyond the bands, material beyond the ring,
+/// Keys of drawn shapes that contradict each other, holes beyond the bands, material beyond the ring,
 /// outlines that cross themselves, too many curves, drawings that are not the same in all sectors.
 void shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found);
 void load_conflicts(const Case& c, Conflicts& found);

@@ -16,6 +16,7 @@ namespace wheelwright {
   apply(export_);                   \
   apply(check);                     \
   apply(init);                      \
+  apply(docs);                      \
   apply(reference)
 
 #define WHEELWRIGHT_DECLARE(name) std::unique_ptr<Subcommand> make_##name()
