@@ -15,12 +15,11 @@
 #include <optional>
 #include <string>
 
+#include "given_case.h"
 #include "unavoidable_work.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/process_settings.h"
 #include "wheelwright/base/stopwatch.h"
-#include "wheelwright/case/read.h"
-#include "wheelwright/case/set_number.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
 #include "wheelwright/mechanics/rolling/turned_state.h"
 #include "wheelwright/run/study/study.h"
@@ -172,23 +171,9 @@ std::optional<Failure> measure(const Case& c, bool with_parts) {
 }
 
 int run(int count, char** arguments, bool with_parts) {
-  auto read = read_case(arguments[1]);
-  for (const auto& problem : read.problems) fmt::print(stderr, "{}\n", problem.text());
-  if (!read.value) return 2;
-  for (int i = 2; i < count; ++i) {
-    const std::string set = arguments[i];
-    const auto equals = set.find('=');
-    if (equals == std::string::npos) {
-      fmt::print(stderr, "{}: KEY=NUMBER is missing its =\n", set);
-      return 2;
-    }
-    if (const auto problem =
-            set_number(*read.value, set.substr(0, equals), std::atof(set.c_str() + equals + 1))) {
-      fmt::print(stderr, "{}\n", *problem);
-      return 2;
-    }
-  }
-  if (const auto failure = measure(*read.value, with_parts)) {
+  const auto c = given_case(arguments[1], {arguments + 2, arguments + count});
+  if (!c) return 2;
+  if (const auto failure = measure(*c, with_parts)) {
     fmt::print(stderr, "{}: {}\n", to_string(failure->reason), failure->detail);
     return 3;
   }

@@ -80,6 +80,26 @@ iterations = 12
 vtu_every = 0
 """
 
+SPOKES = """
+[wheel]
+sectors = 24
+[[shape.annulus]]
+[[shape.spoke]]
+kind = "curved"
+count = 24
+thickness = 0.010
+angle = 12
+bend = 40
+[grid]
+radial_cells = 28
+angular_cells = 480
+tread_levels = 0
+[optimizer]
+iterations = 12
+[output]
+vtu_every = 0
+"""
+
 
 def wheelwright(*arguments, code=0, cwd=None):
     done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, cwd=cwd, check=False)
@@ -221,6 +241,7 @@ class ExportedWheel:
 
     name, reference, folder, smooth = "", None, None, True
     planes, cylinders = 2, 2  # in the solid
+    most_spline_faces = 0
 
     def file(self, ending):
         return self.folder / f"{self.name}.{ending}"
@@ -316,6 +337,7 @@ class ExportedWheel:
         self.assertAlmostEqual(float(facts["usual_volume"]), volume, delta=1e-3 * volume)
         self.assertEqual((int(facts["plane"]), int(facts["cylinder"])), (self.planes, self.cylinders))
         self.assertEqual("b_spline" in facts, self.smooth)
+        self.assertLessEqual(int(facts.get("b_spline", 0)), self.most_spline_faces)
         self.assertNotIn("other", facts)
         for corner, at in (("lower", (-340, -340, 0)), ("upper", (340, 340, self.reference.width))):
             for value, expected in zip(facts[corner].split(), at):
@@ -352,6 +374,7 @@ class ExportedWheel:
 
 class OptimizedWithoutSymmetry(ExportedWheel, unittest.TestCase):
     name = "no_symmetry"
+    most_spline_faces = 4 * SECTORS * len(HOLES)
 
     @classmethod
     def setUpClass(cls):
@@ -387,6 +410,7 @@ class InitialWithoutSymmetry(ExportedWheel, unittest.TestCase):
 
 class ThePapersWheel(ExportedWheel, unittest.TestCase):
     name = "paper"
+    most_spline_faces = 3 * 16
 
     @classmethod
     def setUpClass(cls):
@@ -396,10 +420,25 @@ class ThePapersWheel(ExportedWheel, unittest.TestCase):
         cls.reference = reference_of_run(cls.source, 120)
 
 
+class Spokes(ExportedWheel, unittest.TestCase):
+    """Windows with sharp corners and straight sides, which need many cubics."""
+
+    name = "spokes"
+    most_spline_faces = 5 * 24
+
+    @classmethod
+    def setUpClass(cls):
+        cls.source = optimized(SPOKES, cls.name)
+        cls.folder = exported(cls.source, cls.name)
+        cls.cylinders = round_edges(cls)
+        cls.reference = reference_of_run(cls.source, 120)
+
+
 class AllKindsOfCurves(ExportedWheel, unittest.TestCase):
     """An outline that was made by hand: lines, arcs both ways, a spline with corners."""
 
     name, planes, cylinders = "sample", 2 + 3, 2 + 3
+    most_spline_faces = 1
 
     @classmethod
     def setUpClass(cls):

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+
+#include "wheelwright/output/export/wheel_model.h"
+
+namespace wheelwright {
+
+/// The solid of a wheel as a shape of OpenCASCADE, in millimetres, or its solids if it has several bodies:
+/// two planes, and around them one cylinder per circle or arc, one plane per line, and as few B-spline
+/// surfaces per spline as other programs measure accurately.
+TopoDS_Shape solid_of(const WheelModel& wheel);
+
+}  // namespace wheelwright
