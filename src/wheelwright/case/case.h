@@ -11,6 +11,7 @@
 #include "wheelwright/cad/drawing/fill.h"
 #include "wheelwright/case/own_load.h"
 #include "wheelwright/mechanics/elasticity/contact_form.h"
+#include "wheelwright/mechanics/elasticity/dilatation.h"
 #include "wheelwright/mechanics/elasticity/dual_norm.h"
 #include "wheelwright/mechanics/elasticity/ghost_penalty.h"
 #include "wheelwright/mechanics/elasticity/material.h"
@@ -267,9 +268,10 @@ struct Shapes {
 
 struct Grid {
   int radial_cells = 28;
-  int angular_cells = 384;              ///< around the full ring
-  int axial_cells = 4;                  ///< along the axle; in 3D
-  int degree = 2;                       ///< of the displacement
+  int angular_cells = 384;  ///< around the full ring
+  int axial_cells = 4;      ///< along the axle; in 3D
+  int degree = 2;           ///< of the displacement
+  DilatationKind dilatation = DilatationKind::projected;
   std::optional<int> level_set_degree;  ///< absent: 2, in 3D 1
   std::optional<int>
       tread_levels;  ///< halvings of the cells at the tread; absent: as many as the contact needs

@@ -12,6 +12,12 @@ void material_conflicts(const Case& c, Conflicts& found) {
                      fmt::format("elements of degree 1 are much too stiff at poissons_ratio = {}",
                                  c.material.poissons_ratio),
                      "use degree = 2"});
+  if (c.grid.degree == 2 && c.grid.dilatation == DilatationKind::pointwise)
+    found.push_back(
+        {{key_of(&Grid::dilatation), key_of(&Material::poissons_ratio), key_of(&Material::plane)},
+         fmt::format("elements with the dilatation of the displacement lock at poissons_ratio = {}",
+                     c.material.poissons_ratio),
+         "use dilatation = \"projected\""});
   constexpr double largest = 0.49999;
   if (c.material.poissons_ratio > largest)
     found.push_back({{key_of(&Material::poissons_ratio), key_of(&Material::plane)},

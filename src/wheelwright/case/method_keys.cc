@@ -57,6 +57,12 @@ const Section<Grid>& grid_section() {
           {.name = "degree",
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},
            .meaning = "polynomial degree of the displacement"},
+          {.name = "dilatation",
+           .field = choice<&Grid::dilatation>({"projected", "pointwise"}),
+           .meaning =
+               "projected: with degree = 2, the volume's change is that of an element that does not lock, "
+               "whatever the Poisson's ratio; pointwise: that of the displacement, for comparisons with "
+               "programs that have no such element"},
           {.name = "level_set_degree",
            .field = OptionalIntegerField<Grid>{&Grid::level_set_degree, between(1, 2), "2; in 3D 1", "auto"},
            .meaning = "polynomial degree of the level set"},

@@ -107,7 +107,7 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal) {
 
 template <int dim>
 ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
-                                    const MaterialLaw<dim>& law)
+                                    const MaterialLaw<dim>& law, DilatationKind dilatation)
     : degree_(degree), map_(grid, degree, cell) {
   const double spacing = grid.cell_size()[1] / degree;
   for (int a = 0; a < n_nodes(); ++a) {
@@ -130,9 +130,8 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
     for (const auto& b : corners)
       plane_diameter_ = std::max(plane_diameter_, norm<2>({a[0] - b[0], a[1] - b[1]}));
   if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
-  if (const Material* material = law.isotropic();
-      material && degree == 2 && material->nearly_incompressible())
-    dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2)).coefficients;
+  if (dilatation == DilatationKind::projected && degree == 2 && law.isotropic())
+    dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2));
 }
 
 template <int dim>
@@ -146,27 +145,39 @@ std::array<double, dim + 1> ElasticElement<dim>::linear_functions(const Vec<dim>
 }
 
 template <int dim>
-auto ElasticElement<dim>::project_dilatation(std::span<const ReferencePoint<dim>> part) const -> Dilatation {
-  Matrix mass(dim + 1, dim + 1), moments(dim + 1, n_dofs());
-  for (const auto& q : part) {
-    const Point at = with_pointwise_strain(q.xi);
-    const double weight = q.weight * at.determinant;
-    const auto linear = linear_functions(at.position);
-    for (int a = 0; a <= dim; ++a) {
-      for (int b = 0; b <= dim; ++b) mass(a, b) += weight * linear[a] * linear[b];
-      for (int dof = 0; dof < n_dofs(); ++dof) moments(a, dof) += weight * linear[a] * at.dilatation[dof];
-    }
+void DilatationMoments<dim>::add(const ElasticElement<dim>& element,
+                                 const typename ElasticElement<dim>::Point& point, double weight) {
+  const auto linear = element.linear_functions(point.position);
+  for (int a = 0; a <= dim; ++a) {
+    for (int b = 0; b <= dim; ++b) mass(a, b) += weight * linear[a] * linear[b];
+    for (int dof = 0; dof < of_dofs.columns(); ++dof)
+      of_dofs(a, dof) += weight * linear[a] * point.dilatation[dof];
   }
-  for (int a = 1; a <= dim; ++a) mass(a, a) += smallest_variance * mass(0, 0);
-  if (!cholesky(mass)) return {moments, Matrix(dim + 1, n_dofs())};  // no volume
-  Matrix coefficients = moments;
-  cholesky_solve(mass, coefficients);
-  return {std::move(moments), std::move(coefficients)};
 }
 
 template <int dim>
-auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
-  Point point = with_pointwise_strain(xi);
+Matrix DilatationMoments<dim>::coefficients() const {
+  Matrix factor = mass;
+  for (int a = 1; a <= dim; ++a) factor(a, a) += smallest_variance * mass(0, 0);
+  if (!cholesky(factor)) return Matrix(dim + 1, of_dofs.columns());  // no volume
+  Matrix result = of_dofs;
+  cholesky_solve(factor, result);
+  return result;
+}
+
+template <int dim>
+Matrix ElasticElement<dim>::project_dilatation(std::span<const ReferencePoint<dim>> part) const {
+  DilatationMoments<dim> moments(n_dofs());
+  for (const auto& q : part) {
+    const Point point = at(q.xi);
+    moments.add(*this, point, q.weight * point.determinant);
+  }
+  return moments.coefficients();
+}
+
+template <int dim>
+auto ElasticElement<dim>::with_projected_dilatation(const Vec<dim>& xi) const -> Point {
+  Point point = at(xi);
   if (!projects_dilatation()) return point;
   const auto linear = linear_functions(point.position);
   for (int dof = 0; dof < n_dofs(); ++dof) {
@@ -179,7 +190,7 @@ auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
 }
 
 template <int dim>
-auto ElasticElement<dim>::with_pointwise_strain(const Vec<dim>& xi) const -> Point {
+auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
   const ShapeFunctions<dim> shape(degree_, xi);
   const Mat<dim> jacobian = map_.jacobian(shape);
   Point point{.position = map_.position(shape),
@@ -262,14 +273,14 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>
   const int n = element.n_dofs();
   Matrix k(n, n);
   auto lame = lame_constants(law);
-  if (element.projects_dilatation()) {
-    const double mu = law.isotropic()->mu();
-    lame = Lame{-2 * mu / dim, mu};  // the rest is added below
-  }
+  const bool projects = element.projects_dilatation();
+  if (projects) lame->lambda = -2 * lame->mu / dim;  // only the deviator: the rest is added below
+  DilatationMoments<dim> moments(projects ? n : 0);
   OnDofs<dim> stresses;
   for (const auto& q : points) {
     const auto point = element.at(q.xi);
     const double weight = q.weight * point.determinant;
+    if (projects) moments.add(element, point, weight);
     if (lame)
       weighted_stresses<dim>(*lame, point.strain, n, weight, stresses);
     else
@@ -281,11 +292,10 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>
         for (int i = j; i < n; ++i) column[i] += point.strain[s][i] * value;
       }
   }
-  if (element.projects_dilatation()) {
-    const auto dilatation = element.project_dilatation(points);
+  if (projects) {
     const Material& material = *law.isotropic();
     const double bulk = material.lambda() + 2 * material.mu() / dim;
-    multiply(bulk, dilatation.moments, Op::transpose, dilatation.coefficients, Op::none, 1, k);
+    multiply(bulk, moments.of_dofs, Op::transpose, moments.coefficients(), Op::none, 1, k);
   }
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < j; ++i) k(i, j) = k(j, i);
@@ -319,18 +329,7 @@ struct FaceTerm {
   double weight;  ///< of the square of their difference
 };
 
-/// A point with the strain of u itself, whose trace is not projected.
-template <int dim>
-typename ElasticElement<dim>::Point with_own_dilatation(const ElasticElement<dim>& element,
-                                                        const Vec<dim>& xi) {
-  auto point = element.at(xi);
-  for (int k = 0; k < element.n_dofs() && element.projects_dilatation(); ++k) {
-    double trace = 0;
-    for (int d = 0; d < dim; ++d) trace += point.strain[d][k];
-    for (int d = 0; d < dim; ++d) point.strain[d][k] += (point.dilatation[k] - trace) / dim;
-  }
-  return point;
-}
+constexpr auto own_strain = [](const auto& element, const auto& xi) { return element.at(xi); };
 
 /// `at` returns the map and strain of an element at a point of the unit cell.
 template <int dim>
@@ -431,15 +430,16 @@ Matrix extension(int degree, int n_derivatives, bool from_first_face, double col
 template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                        double angle, const MaterialLaw<dim>& law, const GhostPenalty& ghost) {
-  return jump_stiffness<dim>(minus, plus,
-                             face_terms<dim>(minus, plus, axis, angle, law, ghost, with_own_dilatation<dim>));
+  return jump_stiffness<dim>(minus, plus, face_terms<dim>(minus, plus, axis, angle, law, ghost, own_strain));
 }
 
 template <int dim>
 Matrix traction_jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                                double angle, const MaterialLaw<dim>& law, double weight) {
   const GhostPenalty of_traction{.kind = GhostPenaltyKind::paper, .xi = weight};
-  const auto at = [](const ElasticElement<dim>& element, const Vec<dim>& xi) { return element.at(xi); };
+  const auto at = [](const auto& element, const Vec<dim>& xi) {
+    return element.with_projected_dilatation(xi);
+  };
   return jump_stiffness<dim>(minus, plus, face_terms<dim>(minus, plus, axis, angle, law, of_traction, at));
 }
 
@@ -464,8 +464,7 @@ GhostHalves divided_ghost_stiffness(const ElasticElement<dim>& element, double c
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) k(i, j) += weight * difference[i] * difference[j];
   };
-  for (const auto& term :
-       face_terms<dim>(element, element, 1, column_angle, law, ghost, with_own_dilatation<dim>))
+  for (const auto& term : face_terms<dim>(element, element, 1, column_angle, law, ghost, own_strain))
     for (int d = 0; d < dim; ++d) {
       for (size_t j = 0; j < between.size(); ++j) {
         double sum = 0;
@@ -500,6 +499,7 @@ Matrix half_of_symmetric_pair(const Matrix& form, int degree) {
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                             \
   template decltype(traction<dim>) traction<dim>;                                                \
   template class ElasticElement<dim>;                                                            \
+  template struct DilatationMoments<dim>;                                                        \
   template std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map<dim>( \
       const ElasticElement<dim>&, const MaterialLaw<dim>&, const ElasticElement<dim>::Point&,    \
       const Vec<dim>&);                                                                          \

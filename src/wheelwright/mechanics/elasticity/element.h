@@ -4,6 +4,7 @@
 #include <span>
 
 #include "wheelwright/linalg/dense.h"
+#include "wheelwright/mechanics/elasticity/dilatation.h"
 #include "wheelwright/mechanics/elasticity/ghost_penalty.h"
 #include "wheelwright/mechanics/elasticity/material_law.h"
 #include "wheelwright/shape/geometry/cell_map.h"
@@ -20,20 +21,19 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
 /// dof(). All results are in the Cartesian frame of the cell: its first axis is radial at the first azimuth
 /// of the cell.
 ///
-/// In a nearly incompressible material the strain of the element of degree 2 is that of u with its trace div
-/// u replaced by its L2 projection on the linear functions of x in the cell: the mixed element of quadratic
-/// displacement and discontinuous, linear pressure, which does not lock, with its pressure eliminated. at()
-/// projects on the whole cell, also where the cell is cut; the energy of a part of a cell takes the
-/// projection on that part (docs/method.md).
+/// In an isotropic material the energy of the element of degree 2 takes div u projected in L2 on the linear
+/// functions of x, on the part of the cell that is material: the mixed element of quadratic displacement and
+/// discontinuous, linear pressure, which does not lock, with its pressure eliminated (docs/method.md).
 template <int dim>
 class ElasticElement {
  public:
   static constexpr int max_nodes = power(3, dim);
   static constexpr int max_dofs = dim * max_nodes;
 
-  /// `cell` is a position on the grid; its azimuthal part does not matter.
+  /// `cell` is a position on the grid; its azimuthal part does not matter. The dilatation is projected only
+  /// if the degree is 2 and the law isotropic.
   ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
-                 const MaterialLaw<dim>& law);
+                 const MaterialLaw<dim>& law, DilatationKind dilatation = DilatationKind::projected);
 
   int degree() const { return degree_; }
   int n_nodes() const { return nodes_per_cell<dim>(degree_); }
@@ -56,7 +56,11 @@ class ElasticElement {
     std::array<std::array<double, max_dofs>, dim> displacement;       ///< rows: components
     std::array<double, max_dofs> dilatation;                          ///< div u, never projected
   };
+  /// With the strain of u itself.
   Point at(const Vec<dim>& xi) const;
+  /// With the strain whose trace is div u projected on the whole cell, if this element projects it: that of
+  /// the pressure in tractions.
+  Point with_projected_dilatation(const Vec<dim>& xi) const;
 
   /// The gradient of u: du_i / dx_j in row dim * i + j.
   std::array<std::array<double, max_dofs>, dim * dim> gradient(const Vec<dim>& xi) const;
@@ -67,28 +71,37 @@ class ElasticElement {
   std::array<std::array<double, max_dofs>, dim> second_derivative(const Vec<dim>& xi, int axis,
                                                                   const Vec<dim>& n) const;
 
-  /// Whether the strain's trace is projected.
+  /// Whether the energy is that of the projected dilatation.
   bool projects_dilatation() const { return dilatation_.rows() > 0; }
 
   /// The linear functions of x, on which div u is projected: 1 and the components of (x - x_c) / h_T, with
   /// x_c the middle of the cell.
   std::array<double, dim + 1> linear_functions(const Vec<dim>& x) const;
 
-  /// div u against the linear functions in a part of the cell, given by quadrature points.
-  struct Dilatation {
-    Matrix moments;       ///< integrals of the linear functions times div u, one column a dof
-    Matrix coefficients;  ///< of the projected div u
-  };
-  Dilatation project_dilatation(std::span<const ReferencePoint<dim>> part) const;
+  /// The coefficients, on the linear functions, of div u projected on a part of the cell, which is given by
+  /// quadrature points; one column a dof.
+  Matrix project_dilatation(std::span<const ReferencePoint<dim>> part) const;
 
  private:
-  Point with_pointwise_strain(const Vec<dim>& xi) const;
-
   int degree_;
   CellMap<dim> map_;
   std::array<Mat<dim>, max_nodes> frames_;  ///< polar to Cartesian components at each node
   double plane_diameter_, axial_length_ = 0;
   Matrix dilatation_;  ///< coefficients of div u projected on the whole cell; empty if it is not projected
+};
+
+/// The integrals that project div u on a part of a cell.
+template <int dim>
+struct DilatationMoments {
+  Matrix mass = Matrix(dim + 1, dim + 1);  ///< of the linear functions times each other
+  Matrix of_dofs;                          ///< of the linear functions times div u, one column a dof
+
+  explicit DilatationMoments(int n_dofs) : of_dofs(dim + 1, n_dofs) {}
+
+  void add(const ElasticElement<dim>& element, const typename ElasticElement<dim>::Point& point,
+           double weight);
+  /// Of the projected div u; 0 if the part has no volume.
+  Matrix coefficients() const;
 };
 
 /// The traction sigma n as a linear map of the dofs (rows: components).

@@ -45,8 +45,8 @@ struct Material {
   /// plane strain, E' in plane stress.
   double scaling_modulus() const { return plane_strain_equivalent().youngs_modulus; }
 
-  /// Whether elements of degree 2 need a projected dilatation to be free of locking. Up to this nu they are
-  /// accurate as they are; in plane stress nu / (1 + nu) counts, which is never near 1/2.
+  /// Whether nu is so close to 1/2 that elements of degree 1 are of no use, and that lambda is too large for
+  /// terms that only stabilize. In plane stress nu / (1 + nu) counts, which is never near 1/2.
   bool nearly_incompressible() const { return plane_strain_equivalent().poissons_ratio > 0.485; }
 
   /// sigma_33 / (sigma_11 + sigma_22) and eps_33 / (eps_11 + eps_22), with 3 along the axle, when dim = 2.

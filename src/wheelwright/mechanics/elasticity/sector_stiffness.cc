@@ -11,9 +11,10 @@ namespace {
 /// appear.
 template <int dim>
 std::optional<IsotropicLaw<dim>> compressible_law(const MaterialLaw<dim>& law) {
-  if (!law.isotropic() || !law.isotropic()->nearly_incompressible()) return {};
+  constexpr double largest = 0.48;
+  if (!law.isotropic() || law.isotropic()->plane_strain_equivalent().poissons_ratio <= largest) return {};
   Material material = *law.isotropic();
-  material.poissons_ratio = 0.48;
+  material.poissons_ratio = largest;
   return IsotropicLaw<dim>(material);
 }
 
@@ -21,11 +22,18 @@ std::optional<IsotropicLaw<dim>> compressible_law(const MaterialLaw<dim>& law) {
 
 template <int dim>
 ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Materials<dim>& materials,
-                                const GhostPenalty& ghost, CellStiffness<dim>* bulk, SideFaces sides)
-    : grid_(grid), degree_(degree), materials_(materials), ghost_(ghost), bulk_(bulk), sides_(sides) {
+                                const GhostPenalty& ghost, CellStiffness<dim>* bulk, SideFaces sides,
+                                DilatationKind dilatation)
+    : grid_(grid),
+      degree_(degree),
+      materials_(materials),
+      ghost_(ghost),
+      bulk_(bulk),
+      sides_(sides),
+      dilatation_(dilatation) {
   const auto rule = unit_cell_rule<dim>(degree + 2);
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
-    elements_.emplace_back(grid, degree, std::array<int, dim>{radial}, materials.in_row(radial));
+    elements_.emplace_back(grid, degree, std::array<int, dim>{radial}, materials.in_row(radial), dilatation);
     stiffness_.push_back(bulk(elements_.back(), materials.in_row(radial), rule));
   }
   const double column_angle = grid.cell_size()[1];

@@ -18,13 +18,14 @@ class ElementTable {
  public:
   ElementTable(const PolarGrid<dim>& grid, int degree, const Materials<dim>& materials,
                const GhostPenalty& ghost, CellStiffness<dim>* bulk = cell_stiffness<dim>,
-               SideFaces sides = SideFaces::free);
+               SideFaces sides = SideFaces::free, DilatationKind dilatation = DilatationKind::projected);
 
   const PolarGrid<dim>& grid() const { return grid_; }
   int degree() const { return degree_; }
   const Materials<dim>& materials() const { return materials_; }
   const GhostPenalty& ghost() const { return ghost_; }
   SideFaces sides() const { return sides_; }
+  DilatationKind dilatation() const { return dilatation_; }
 
   /// The stiffness of dofs fixed by the side faces: so large that they are zero up to rounding [N/m].
   double held_stiffness() const {
@@ -54,6 +55,7 @@ class ElementTable {
   GhostPenalty ghost_;
   CellStiffness<dim>* bulk_;
   SideFaces sides_;
+  DilatationKind dilatation_;
   std::vector<ElasticElement<dim>> elements_;
   std::vector<Matrix> stiffness_;
   std::vector<Matrix> ghosts_, ghosts_at_middle_;

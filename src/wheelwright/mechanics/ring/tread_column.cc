@@ -298,7 +298,7 @@ class ColumnAssembly {
     fine.cells[1] <<= layer.level;
     const double height = layer.inner_radius + (row + 0.5) * fine.cell_size()[0] - grid_.inner_radius;
     const MaterialLaw<dim>& law = materials_.in_row(static_cast<int>(height / grid_.cell_size()[0]));
-    const ElasticElement<dim> element(fine, degree_, {row}, law);
+    const ElasticElement<dim> element(fine, degree_, {row}, law, table_.dilatation());
     const Matrix stiffness = table_.bulk_stiffness(element, law, volume_rule_);
     const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
     add_face_rows(1 << layer.level, at_tread);
@@ -401,7 +401,7 @@ class ColumnAssembly {
       Vec<dim> xi{}, outward{};
       xi[0] = outward[0] = 1;
       for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
-      const auto at = cell.element.at(xi);
+      const auto at = cell.element.with_projected_dilatation(xi);
       const auto surface = map_surface<dim>(at.jacobian, outward);
       const auto traction = traction_map<dim>(cell.element, cell.law, at, surface.normal);
       const double weight = q.weight * surface.scale;
@@ -422,7 +422,7 @@ class ColumnAssembly {
   void add_annulus(const ColumnCell<dim>& cell) {
     append_images(mirror_images(annulus_rule_, 1), cell, annulus_images_);
     for (const auto& q : annulus_rule_) {
-      const auto at = cell.element.at(q.xi);
+      const auto at = cell.element.with_projected_dilatation(q.xi);
       Vec<dim> radial{at.position[0], at.position[1]};
       const double radius = norm<dim>(radial);
       for (double& x : radial) x /= radius;

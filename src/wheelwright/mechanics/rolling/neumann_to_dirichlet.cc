@@ -4,15 +4,16 @@ namespace wheelwright {
 
 namespace {
 
-/// Poisson's problem depends only on E: a material with zero Poisson's ratio avoids a special element.
+/// Poisson's problem depends only on E, and has no dilatation.
 template <int dim>
 std::shared_ptr<const ElementTable<dim>> elements_of(const RollingModel<dim>& model, DualNorm norm) {
   if (norm == DualNorm::elasticity)
     return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost,
-                                                     cell_stiffness<dim>, model.side_faces);
+                                                     cell_stiffness<dim>, model.side_faces, model.dilatation);
   const Materials<dim> material(Material{model.materials.at_tread().scaling_modulus(), 0});
   return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, material, model.ghost,
-                                                   gradient_stiffness<dim>, model.side_faces);
+                                                   gradient_stiffness<dim>, model.side_faces,
+                                                   DilatationKind::pointwise);
 }
 
 }  // namespace

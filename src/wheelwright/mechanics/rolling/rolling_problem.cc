@@ -75,8 +75,9 @@ RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
 template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
   if (auto failure = unsupported_material(model)) return *failure;
-  auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost,
-                                                      cell_stiffness<dim>, model.side_faces);
+  auto elements =
+      std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost,
+                                          cell_stiffness<dim>, model.side_faces, model.dilatation);
   TreadGrid grid = model.tread;
   grid.observes_spin = grid.observes_spin || model.distributed.angular_speed != 0;
   auto tread = Tread<dim>::condense(*elements, grid, model.contact, model.contact_points,

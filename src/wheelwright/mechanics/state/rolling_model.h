@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "wheelwright/mechanics/elasticity/contact_form.h"
+#include "wheelwright/mechanics/elasticity/dilatation.h"
 #include "wheelwright/mechanics/elasticity/ghost_penalty.h"
 #include "wheelwright/mechanics/elasticity/materials.h"
 #include "wheelwright/mechanics/elasticity/side_faces.h"
@@ -58,7 +59,8 @@ struct WheelLoads {
 template <int dim>
 struct RollingModel : WheelLoads<dim> {
   PolarGrid<dim> grid;
-  int degree = 2;                 ///< of the displacement, 1 or 2
+  int degree = 2;  ///< of the displacement, 1 or 2
+  DilatationKind dilatation = DilatationKind::projected;
   std::optional<int> cut_points;  ///< Gauss points per direction in cut cells; absent: degree + 2
   Materials<dim> materials;
   GhostPenalty ghost;

@@ -58,6 +58,7 @@ RollingModel<dim> rolling_model(const Case& c) {
   RollingModel<dim> model;
   model.grid = polar_grid<dim>(c);
   model.degree = c.grid.degree;
+  model.dilatation = c.grid.dilatation;
   model.materials = c.material;
   model.ghost = c.ghost_penalty;
   model.side_faces = c.wheel.side_faces;
