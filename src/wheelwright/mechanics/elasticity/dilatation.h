@@ -2,12 +2,12 @@
 
 namespace wheelwright {
 
-/// Which dilatation an element of degree 2 has in its energy and in its pressure.
+/// The dilatation on which the bulk modulus K = lambda + 2 mu / dim of an element of degree 2 works.
 enum class DilatationKind {
-  /// div u projected on the linear functions of a cell: the mixed element of quadratic displacement and
-  /// discontinuous, linear pressure, which does not lock for any nu below 1/2.
+  /// All of K but mu / 2 on div u projected on the linear functions of a cell, which does not lock for any nu
+  /// below 1/2, and the rest on div u.
   projected,
-  pointwise,  ///< div u itself: the displacement element of other programs
+  pointwise,  ///< on div u: the displacement element of other programs
 };
 
 }  // namespace wheelwright

@@ -21,9 +21,11 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
 /// dof(). All results are in the Cartesian frame of the cell: its first axis is radial at the first azimuth
 /// of the cell.
 ///
-/// In an isotropic material the energy of the element of degree 2 takes div u projected in L2 on the linear
-/// functions of x, on the part of the cell that is material: the mixed element of quadratic displacement and
-/// discontinuous, linear pressure, which does not lock, with its pressure eliminated (docs/method.md).
+/// In an isotropic material nearly all of the bulk modulus of the element of degree 2 works on div u
+/// projected in L2 on the linear functions of x, on the part of the cell that is material: the mixed element
+/// of quadratic displacement and discontinuous, linear pressure, which does not lock, with its pressure
+/// eliminated. A small part works on div u itself, without which stresses at edges of holes are less accurate
+/// (docs/method.md).
 template <int dim>
 class ElasticElement {
  public:
@@ -58,8 +60,8 @@ class ElasticElement {
   };
   /// With the strain of u itself.
   Point at(const Vec<dim>& xi) const;
-  /// With the strain whose trace is div u projected on the whole cell, if this element projects it: that of
-  /// the pressure in tractions.
+  /// With the trace of the strain from which the pressure in tractions follows: where projected_bulk() > 0,
+  /// its share of K on div u projected on the whole cell.
   Point with_projected_dilatation(const Vec<dim>& xi) const;
 
   /// The gradient of u: du_i / dx_j in row dim * i + j.
@@ -71,8 +73,9 @@ class ElasticElement {
   std::array<std::array<double, max_dofs>, dim> second_derivative(const Vec<dim>& xi, int axis,
                                                                   const Vec<dim>& n) const;
 
-  /// Whether the energy is that of the projected dilatation.
-  bool projects_dilatation() const { return dilatation_.rows() > 0; }
+  /// The part of K = lambda + 2 mu / dim that works on the projected dilatation, 0 if there is none [Pa].
+  double projected_bulk() const { return projected_bulk_; }
+  bool projects_dilatation() const { return projected_bulk_ > 0; }
 
   /// The linear functions of x, on which div u is projected: 1 and the components of (x - x_c) / h_T, with
   /// x_c the middle of the cell.
@@ -87,6 +90,7 @@ class ElasticElement {
   CellMap<dim> map_;
   std::array<Mat<dim>, max_nodes> frames_;  ///< polar to Cartesian components at each node
   double plane_diameter_, axial_length_ = 0;
+  double projected_bulk_ = 0, projected_share_ = 0;  ///< the latter of K
   Matrix dilatation_;  ///< coefficients of div u projected on the whole cell; empty if it is not projected
 };
 

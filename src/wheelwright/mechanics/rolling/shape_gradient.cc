@@ -128,7 +128,7 @@ class Densities {
       densities.push_back(energy_and_work(functions_[f].energy, law, strain_u, strain_p));
       for (size_t q = 0; q < points.size(); ++q)
         densities[f][q] += loads_[f].density(points[q], law, angle, p);
-      if (projected) add_projection(functions_[f].energy, law, u, p, dilatations, densities[f]);
+      if (projected) add_projection(functions_[f].energy, element, u, p, dilatations, densities[f]);
       const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
       if (!integrals.empty()) add_integrands(integrals, law, strain_u, densities[f]);
     }
@@ -178,10 +178,9 @@ class Densities {
   /// lambda + 2 mu / dim. At the maximum q is the projection of div u, and the derivative to the shape is
   /// that of the integral for this q: K (q_u div p + q_p div u - q_u q_p) takes the place of K div u div p,
   /// so that -K (div u - q_u) (div p - q_p) is added.
-  void add_projection(const std::vector<double>& energy, const MaterialLaw<dim>& law, const Matrix& u,
+  void add_projection(const std::vector<double>& energy, const ElasticElement<dim>& element, const Matrix& u,
                       const Matrix& p, const Matrix& dilatations, std::vector<double>& densities) const {
-    const Material& material = *law.isotropic();
-    const double bulk = material.lambda() + 2 * material.mu() / dim;
+    const double bulk = element.projected_bulk();
     const Matrix of_u = product(u, Op::none, dilatations, Op::none);
     Matrix of_p = product(p, Op::none, dilatations, Op::none);
     if (!energy.empty()) {
