@@ -55,8 +55,8 @@ class MaterialLaw {
   /// [kg/m^3]; needed for the mass and for rotation.
   virtual std::optional<double> density() const { return {}; }
 
-  /// The constants of isotropic linear elasticity; null for other laws. Elements without locking near nu =
-  /// 1/2 and derivatives with respect to small holes are known for isotropic materials only.
+  /// The constants of isotropic linear elasticity; null for other laws. Elements without locking and
+  /// derivatives with respect to small holes are known for isotropic materials only.
   virtual const Material* isotropic() const { return nullptr; }
 };
 
