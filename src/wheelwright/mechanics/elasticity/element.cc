@@ -135,7 +135,7 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
       plane_diameter_ = std::max(plane_diameter_, norm<2>({a[0] - b[0], a[1] - b[1]}));
   if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
   if (const Material* material = law.isotropic();
-      material && dilatation != DilatationKind::pointwise && degree == 2) {
+      material && dilatation == DilatationKind::projected && degree == 2) {
     const double bulk = material->lambda() + 2 * material->mu() / dim;
     projected_bulk_ = bulk - pointwise_bulk * material->mu();
     projected_share_ = projected_bulk_ / bulk;
@@ -178,15 +178,15 @@ template <int dim>
 Matrix ElasticElement<dim>::project_dilatation(std::span<const ReferencePoint<dim>> part) const {
   DilatationMoments<dim> moments(n_dofs());
   for (const auto& q : part) {
-    const Point point = at(q.xi);
+    const Point point = with_own_strain(q.xi);
     moments.add(*this, point, q.weight * point.determinant);
   }
   return moments.coefficients();
 }
 
 template <int dim>
-auto ElasticElement<dim>::with_projected_dilatation(const Vec<dim>& xi) const -> Point {
-  Point point = at(xi);
+auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
+  Point point = with_own_strain(xi);
   if (!projects_dilatation()) return point;
   const auto linear = linear_functions(point.position);
   for (int dof = 0; dof < n_dofs(); ++dof) {
@@ -199,7 +199,7 @@ auto ElasticElement<dim>::with_projected_dilatation(const Vec<dim>& xi) const ->
 }
 
 template <int dim>
-auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
+auto ElasticElement<dim>::with_own_strain(const Vec<dim>& xi) const -> Point {
   const ShapeFunctions<dim> shape(degree_, xi);
   const Mat<dim> jacobian = map_.jacobian(shape);
   Point point{.position = map_.position(shape),
@@ -287,7 +287,7 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>
   DilatationMoments<dim> moments(projects ? n : 0);
   OnDofs<dim> stresses;
   for (const auto& q : points) {
-    const auto point = element.at(q.xi);
+    const auto point = element.with_own_strain(q.xi);
     const double weight = q.weight * point.determinant;
     if (projects) moments.add(element, point, weight);
     if (lame)
@@ -336,7 +336,7 @@ struct FaceTerm {
   double weight;  ///< of the square of their difference
 };
 
-constexpr auto own_strain = [](const auto& element, const auto& xi) { return element.at(xi); };
+constexpr auto own_strain = [](const auto& element, const auto& xi) { return element.with_own_strain(xi); };
 
 /// `at` returns the map and strain of an element at a point of the unit cell.
 template <int dim>
@@ -444,9 +444,7 @@ template <int dim>
 Matrix traction_jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                                double angle, const MaterialLaw<dim>& law, double weight) {
   const GhostPenalty of_traction{.kind = GhostPenaltyKind::paper, .xi = weight};
-  const auto at = [](const auto& element, const Vec<dim>& xi) {
-    return element.with_projected_dilatation(xi);
-  };
+  const auto at = [](const ElasticElement<dim>& element, const Vec<dim>& xi) { return element.at(xi); };
   return jump_stiffness<dim>(minus, plus, face_terms<dim>(minus, plus, axis, angle, law, of_traction, at));
 }
 

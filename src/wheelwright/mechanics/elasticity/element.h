@@ -58,11 +58,11 @@ class ElasticElement {
     std::array<std::array<double, max_dofs>, dim> displacement;       ///< rows: components
     std::array<double, max_dofs> dilatation;                          ///< div u, never projected
   };
-  /// With the strain of u itself.
+  /// With a strain whose trace gives the pressure: the share of projected_bulk() in K is that of div u
+  /// projected on the whole cell, also where the cell is cut.
   Point at(const Vec<dim>& xi) const;
-  /// With the trace of the strain from which the pressure in tractions follows: where projected_bulk() > 0,
-  /// its share of K on div u projected on the whole cell.
-  Point with_projected_dilatation(const Vec<dim>& xi) const;
+  /// With the strain of u itself.
+  Point with_own_strain(const Vec<dim>& xi) const;
 
   /// The gradient of u: du_i / dx_j in row dim * i + j.
   std::array<std::array<double, max_dofs>, dim * dim> gradient(const Vec<dim>& xi) const;
@@ -73,7 +73,7 @@ class ElasticElement {
   std::array<std::array<double, max_dofs>, dim> second_derivative(const Vec<dim>& xi, int axis,
                                                                   const Vec<dim>& n) const;
 
-  /// The part of K = lambda + 2 mu / dim that works on the projected dilatation, 0 if there is none [Pa].
+  /// The part of K = lambda + 2 mu / dim that works on the projected dilatation; 0 if there is none [Pa].
   double projected_bulk() const { return projected_bulk_; }
   bool projects_dilatation() const { return projected_bulk_ > 0; }
 

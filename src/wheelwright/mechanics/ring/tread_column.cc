@@ -401,7 +401,7 @@ class ColumnAssembly {
       Vec<dim> xi{}, outward{};
       xi[0] = outward[0] = 1;
       for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
-      const auto at = cell.element.with_projected_dilatation(xi);
+      const auto at = cell.element.at(xi);
       const auto surface = map_surface<dim>(at.jacobian, outward);
       const auto traction = traction_map<dim>(cell.element, cell.law, at, surface.normal);
       const double weight = q.weight * surface.scale;
@@ -422,7 +422,7 @@ class ColumnAssembly {
   void add_annulus(const ColumnCell<dim>& cell) {
     append_images(mirror_images(annulus_rule_, 1), cell, annulus_images_);
     for (const auto& q : annulus_rule_) {
-      const auto at = cell.element.with_projected_dilatation(q.xi);
+      const auto at = cell.element.at(q.xi);
       Vec<dim> radial{at.position[0], at.position[1]};
       const double radius = norm<dim>(radial);
       for (double& x : radial) x /= radius;

@@ -23,18 +23,20 @@ Matrix strain_maps(const ElasticElement<dim>& element,
   return strains;
 }
 
-/// Linear maps from a cell's dofs, one column each, in pairs for every point of its moving boundary: div u,
-/// and div u projected on the part of the cell that `material` holds.
+/// Linear maps from a cell's dofs, one column each, in threes for every point of its moving boundary: the
+/// trace of the strain, div u, and div u projected on the part of the cell that `material` holds.
 template <int dim>
 Matrix dilatation_columns(const ElasticElement<dim>& element, std::span<const ReferencePoint<dim>> material,
                           std::span<const typename ElasticElement<dim>::Point> points) {
   const Matrix projection = element.project_dilatation(material);
-  Matrix columns(element.n_dofs(), 2 * static_cast<int>(points.size()));
+  Matrix columns(element.n_dofs(), 3 * static_cast<int>(points.size()));
   for (size_t q = 0; q < points.size(); ++q) {
-    double* dilatation = columns.column(2 * static_cast<int>(q));
+    double* trace = columns.column(3 * static_cast<int>(q));
+    double* dilatation = trace + columns.rows();
     double* projected = dilatation + columns.rows();
     const auto linear = element.linear_functions(points[q].position);
     for (int dof = 0; dof < element.n_dofs(); ++dof) {
+      for (int d = 0; d < dim; ++d) trace[dof] += points[q].strain[d][dof];
       dilatation[dof] = points[q].dilatation[dof];
       for (int a = 0; a <= dim; ++a) projected[dof] += projection(a, dof) * linear[a];
     }
@@ -128,7 +130,7 @@ class Densities {
       densities.push_back(energy_and_work(functions_[f].energy, law, strain_u, strain_p));
       for (size_t q = 0; q < points.size(); ++q)
         densities[f][q] += loads_[f].density(points[q], law, angle, p);
-      if (projected) add_projection(functions_[f].energy, element, u, p, dilatations, densities[f]);
+      if (projected) add_projection(functions_[f].energy, element, law, u, p, dilatations, densities[f]);
       const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
       if (!integrals.empty()) add_integrands(integrals, law, strain_u, densities[f]);
     }
@@ -173,14 +175,17 @@ class Densities {
     return densities;
   }
 
-  /// The effect of the projection of div u in a cut cell on energy_and_work(). The energy of the cell is the
-  /// maximum, over linear pressures K q, of the integral of K (q div u - q^2 / 2) over its material, with K =
-  /// lambda + 2 mu / dim. At the maximum q is the projection of div u, and the derivative to the shape is
-  /// that of the integral for this q: K (q_u div p + q_p div u - q_u q_p) takes the place of K div u div p,
-  /// so that -K (div u - q_u) (div p - q_p) is added.
-  void add_projection(const std::vector<double>& energy, const ElasticElement<dim>& element, const Matrix& u,
-                      const Matrix& p, const Matrix& dilatations, std::vector<double>& densities) const {
-    const double bulk = element.projected_bulk();
+  /// The effect of the projection of div u in a cut cell on energy_and_work(), whose strains have the trace
+  /// t. The energy of the cell is the integral of (K - B) (div u)^2 / 2 over its material and the maximum,
+  /// over linear pressures B q, of that of B (q div u - q^2 / 2), with K = lambda + 2 mu / dim and B =
+  /// projected_bulk(). At the maximum q is the projection of div u, and the derivative to the shape is that
+  /// of the integral for this q: K div u div p - B (div u - q_u) (div p - q_p) takes the place of K t_u t_p.
+  void add_projection(const std::vector<double>& energy, const ElasticElement<dim>& element,
+                      const MaterialLaw<dim>& law, const Matrix& u, const Matrix& p,
+                      const Matrix& dilatations, std::vector<double>& densities) const {
+    const Material& material = *law.isotropic();
+    const double bulk = material.lambda() + 2 * material.mu() / dim,
+                 projected_bulk = element.projected_bulk();
     const Matrix of_u = product(u, Op::none, dilatations, Op::none);
     Matrix of_p = product(p, Op::none, dilatations, Op::none);
     if (!energy.empty()) {
@@ -188,10 +193,12 @@ class Densities {
       for (size_t i = 0; i < of_p.entries().size(); ++i) of_p.data()[i] += 0.5 * weighted.data()[i];
     }
     for (size_t q = 0; q < densities.size(); ++q) {
-      const int dilatation = 2 * static_cast<int>(q), projected = dilatation + 1;
+      const int trace = 3 * static_cast<int>(q), dilatation = trace + 1, projected = trace + 2;
       for (int mode = 0; mode < u.rows(); ++mode)
-        densities[q] -= bulk * (of_u(mode, dilatation) - of_u(mode, projected)) *
-                        (of_p(mode, dilatation) - of_p(mode, projected));
+        densities[q] +=
+            bulk * (of_u(mode, dilatation) * of_p(mode, dilatation) - of_u(mode, trace) * of_p(mode, trace)) -
+            projected_bulk * (of_u(mode, dilatation) - of_u(mode, projected)) *
+                (of_p(mode, dilatation) - of_p(mode, projected));
     }
   }
 

@@ -31,25 +31,17 @@ RingField vertical_field(const RingField& displacement, double ground_azimuth) {
 
 namespace {
 
-/// Rows of strains_at_nodes() a node.
-template <int dim>
-constexpr int rows_of_node = n_strains<dim> + 1;
-
-/// Linear maps from the dofs of a cell of this row to its nodes: the strain, and what the projection of div u
-/// on the cell adds to its trace.
+/// Strains at the nodes of a cell of this row as a linear map of its dofs: n_strains rows a node.
 template <int dim>
 Matrix strains_at_nodes(const ElasticElement<dim>& element) {
   const int degree = element.degree();
-  Matrix map(rows_of_node<dim> * element.n_nodes(), element.n_dofs());
+  Matrix map(n_strains<dim> * element.n_nodes(), element.n_dofs());
   for (int a = 0; a < element.n_nodes(); ++a) {
     Vec<dim> xi;
     for (int d = 0; d < dim; ++d) xi[d] = double(local_node_position<dim>(degree, a)[d]) / degree;
-    const auto point = element.at(xi), projected = element.with_projected_dilatation(xi);
-    for (int j = 0; j < element.n_dofs(); ++j) {
-      double* node = map.column(j) + rows_of_node<dim> * a;
-      for (int k = 0; k < n_strains<dim>; ++k) node[k] = point.strain[k][j];
-      for (int d = 0; d < dim; ++d) node[n_strains<dim>] += projected.strain[d][j] - point.strain[d][j];
-    }
+    const auto point = element.at(xi);
+    for (int k = 0; k < n_strains<dim>; ++k)
+      for (int j = 0; j < element.n_dofs(); ++j) map(n_strains<dim> * a + k, j) = point.strain[k][j];
   }
   return map;
 }
@@ -108,14 +100,6 @@ double axial_stress(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
   return stress;
 }
 
-/// The modulus with which a change of the trace of the strain changes the mean stress, of all axes or, in
-/// plane stress, of those of the plane [Pa]. The deviator stays that of the strain.
-template <int dim>
-double bulk_modulus(const Material& material) {
-  const int axes = dim == 2 && material.plane == Plane::stress ? 2 : 3;
-  return material.lambda() + 2 * material.mu() / axes;
-}
-
 /// A cell with material and its column round the ring.
 template <int dim>
 struct RingCell {
@@ -165,20 +149,16 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
       for (int a = 0; a < element.n_nodes(); ++a)
         std::copy_n(&polar[dim * cells[c].nodes[a]], dim, dofs.column(static_cast<int>(c)) + dim * a);
     const Matrix strains = product(strains_at_nodes(element), Op::none, dofs, Op::none);
-    const Material* material = law.isotropic();
-    const double bulk = material ? bulk_modulus<dim>(*material) : 0;
-    const bool is_free_along_axle = material && dim == 2 && material->plane == Plane::stress;
     for (size_t c = 0; c < cells.size(); ++c) {
       const double* strain = strains.column(static_cast<int>(c));
       for (const size_t node : std::span(cells[c].nodes).first(element.n_nodes())) {
         Voigt<dim> at_point;
         std::copy_n(strain, n_strains<dim>, at_point.begin());
-        auto at_node = in_body_frame(stress<dim>(law, at_point), of_column[cells[c].column],
-                                     axial_stress<dim>(law, at_point));
-        for (int k = 0; k < (is_free_along_axle ? 2 : 3); ++k) at_node[k] += bulk * strain[n_strains<dim>];
+        const auto at_node = in_body_frame(stress<dim>(law, at_point), of_column[cells[c].column],
+                                           axial_stress<dim>(law, at_point));
         for (int k = 0; k < components; ++k) sum[node][k] += at_node[k];
         ++count[node];
-        strain += rows_of_node<dim>;
+        strain += n_strains<dim>;
       }
     }
   }
