@@ -960,7 +960,7 @@ TEST_F(DrawingInACase, WrongUnitsAreSuspected) {
   write("mm.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n", 6));
   const CaseResult result = read("[[shape.file]]\npath = \"mm.dxf\"\ncount = 16\n");
   ASSERT_FALSE(result.problems.empty());
-  EXPECT_NE(result.problems[0].remedy.find("0.29 m if they are millimetres"), std::string::npos)
+  EXPECT_NE(result.problems[0].remedy.find("it fits if its numbers are in millimetres"), std::string::npos)
       << result.problems[0].text();
 }
 
