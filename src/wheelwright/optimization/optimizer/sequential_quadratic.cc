@@ -1,8 +1,10 @@
 #include "wheelwright/optimization/optimizer/sequential_quadratic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace wheelwright {
 namespace {
@@ -21,6 +23,23 @@ Nodal combination(const std::vector<double>& coefficients, const std::vector<Nod
 
 double product(const Nodal& load, const Nodal& deformation) {
   return std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
+}
+
+/// The products of several loads with one deformation. Eight sums at a time do not wait for each other.
+std::vector<double> products_of(std::span<const Nodal> loads, const Nodal& deformation) {
+  constexpr size_t at_a_time = 8;
+  std::vector<double> result;
+  size_t first = 0;
+  for (; first + at_a_time <= loads.size(); first += at_a_time) {
+    std::array<const double*, at_a_time> load;
+    for (size_t i = 0; i < at_a_time; ++i) load[i] = loads[first + i].data();
+    std::array<double, at_a_time> sum{};
+    for (size_t k = 0; k < deformation.size(); ++k)
+      for (size_t i = 0; i < at_a_time; ++i) sum[i] += load[i][k] * deformation[k];
+    result.insert(result.end(), sum.begin(), sum.end());
+  }
+  for (; first < loads.size(); ++first) result.push_back(product(loads[first], deformation));
+  return result;
 }
 
 Nodal scaled(Nodal values, double factor) {
@@ -65,10 +84,12 @@ template <int dim>
 Matrix SequentialQuadraticProposals<dim>::Span::products() const {
   const int n = static_cast<int>(loads.size()), n_known = known.rows(), first_known = n - n_known;
   Matrix result(n, n);
-  for (int j = 0; j < n; ++j)
+  for (int j = 0; j < n; ++j) {
+    const int n_new = std::min(j + 1, first_known);
+    const auto products = products_of(std::span(loads).first(n_new), deformations[j]);
     for (int i = 0; i <= j; ++i)
-      result(i, j) = result(j, i) =
-          i < first_known ? product(loads[i], deformations[j]) : known(i - first_known, j - first_known);
+      result(i, j) = result(j, i) = i < n_new ? products[i] : known(i - first_known, j - first_known);
+  }
   return result;
 }
 
