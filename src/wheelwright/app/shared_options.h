@@ -24,6 +24,9 @@ void add_output(Options& options, std::optional<std::string>& folder, const std:
 /// --verbose
 void add_verbose(Options& options, bool& verbose);
 
+/// --events json
+void add_events(Options& options, std::optional<std::string>& format);
+
 /// An Options::Check that rejects empty names.
 std::string not_empty(const std::string& text);
 
