@@ -37,6 +37,11 @@ void add_verbose(Options& options, bool& verbose) {
   options.flag("--verbose", verbose, "Show every trial shape, with the reason if it is rejected");
 }
 
+void add_without_errors(Options& options, bool& without_errors) {
+  options.flag("--without-errors", without_errors,
+               "Do not solve on a finer grid too, from which the errors of the numbers are estimated");
+}
+
 std::string not_empty(const std::string& text) { return text.empty() ? "must not be empty" : ""; }
 
 }  // namespace wheelwright
