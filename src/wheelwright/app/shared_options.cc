@@ -44,6 +44,11 @@ void add_events(Options& options, std::optional<std::string>& format) {
       "Print only what happens, as one JSON object per line, for a program (docs/driving.md)");
 }
 
+void add_without_errors(Options& options, bool& without_errors) {
+  options.flag("--without-errors", without_errors,
+               "Do not solve on a finer grid too, from which the errors of the numbers are estimated");
+}
+
 std::string not_empty(const std::string& text) { return text.empty() ? "must not be empty" : ""; }
 
 }  // namespace wheelwright
