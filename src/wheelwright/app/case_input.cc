@@ -52,6 +52,7 @@ void print_problems(const std::filesystem::path& file, const std::vector<Diagnos
   constexpr std::size_t max_shown = 100;
   const std::size_t n = problems.size();
   for (std::size_t i = 0; i < std::min(n, max_shown); ++i) print_err("{}\n", problems[i].text());
+  if (n == 1 && problems.front().line == 0) return;  // of the file as a whole: there is nothing to count
   const std::string more = n > max_shown ? fmt::format("; {} of them are not shown", n - max_shown) : "";
   print_err("{}\n", styled(stderr, Style::red,
                            fmt::format("{}: {} problem{}{}", file.string(), n, n == 1 ? "" : "s", more)));
