@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "wheelwright/shape/evolution/spline_level_set.h"
 #include "wheelwright/shape/geometry/cell_map.h"
@@ -10,27 +9,18 @@
 namespace wheelwright {
 namespace {
 
-/// |grad psi| in a cell, with the cell's map of the same degree.
+/// |grad psi| at a point of a cell, with the cell's map of the same degree.
 template <int dim>
-class Steepness {
- public:
-  Steepness(const LevelSet<dim>& psi, int cell)
-      : degree_(psi.lattice.degree()),
-        values_(psi.cell_values(cell)),
-        map_(psi.lattice.grid(), degree_, psi.lattice.grid().cell_position(cell)) {}
-
-  double operator()(const Vec<dim>& xi) const {
-    const ShapeFunctions<dim> shape(degree_, xi);
-    Vec<dim> gradient{};
-    for (std::size_t a = 0; a < values_.size(); ++a) gradient += values_[a] * shape.gradient[a];
-    return norm<dim>(transpose_times<dim>(inverse<dim>(map_.jacobian(shape)), gradient));
-  }
-
- private:
-  int degree_;
-  std::vector<double> values_;
-  CellMap<dim> map_;
-};
+double steepness_at(const LevelSet<dim>& psi, const SurfacePoint<dim>& point) {
+  const auto& grid = psi.lattice.grid();
+  const int degree = psi.lattice.degree();
+  const auto values = psi.cell_values(point.cell);
+  const ShapeFunctions<dim> shape(degree, point.xi);
+  Vec<dim> gradient{};
+  for (std::size_t a = 0; a < values.size(); ++a) gradient += values[a] * shape.gradient[a];
+  const CellMap<dim> map(grid, degree, grid.cell_position(point.cell));
+  return norm<dim>(transpose_times<dim>(inverse<dim>(map.jacobian(shape)), gradient));
+}
 
 template <int dim>
 Vec<dim> gradient_at(const LevelSet<dim>& psi, int node) {
@@ -66,16 +56,13 @@ typename BoundaryMotion<dim>::Boundary BoundaryMotion<dim>::boundary_of(
   Boundary result;
   result.places.reserve(points.size());
   result.dependences.reserve(power(4, dim) * points.size());
-  std::optional<Steepness<dim>> steepness;
-  int last_cell = -1;
   for (const auto& point : points) {
-    if (point.cell != last_cell) steepness.emplace(psi, last_cell = point.cell);
     const std::size_t first = result.dependences.size();
     add_dependences<dim>(psi.lattice, psi.lattice.grid().cell_position(point.cell), point.xi, 1,
                          result.dependences);
     result.places.push_back({.first = first,
                              .last = result.dependences.size(),
-                             .steepness = (*steepness)(point.xi),
+                             .steepness = steepness_at<dim>(psi, point),
                              .measure = point.weight});
   }
   return result;
