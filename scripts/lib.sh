@@ -10,11 +10,11 @@ packages=(
   libjs-chart.js libjs-three
   libgtest-dev libbenchmark-dev
 )
-# For export to STEP and 3MF; what the tests read exported files with; what they open pages with; a locale of theirs; what
+# For export to STEP and 3MF; what the tests read exported files and JSON with; what they open pages with; a locale of theirs; what
 # they run the scripts of the pages with; what they check the style of the sources with.
 export_packages=(libocct-data-exchange-dev lib3mf-dev)
 test_packages=(
-  python3 python3-ezdxf python3-pil admesh librsvg2-bin
+  python3 python3-ezdxf python3-jsonschema python3-pil admesh librsvg2-bin
   chromium chromium-driver firefox-esr python3-selenium
   locales
   nodejs

@@ -19,7 +19,7 @@ offers() {
 }
 
 offers "watch" -- wheelwright wa
-offers "docs" -- wheelwright do
+offers "docs" -- wheelwright doc
 offers "--print" -- wheelwright docs --p
 offers "resume report reference" -- wheelwright re
 offers "paper16 paper16-3d" -- wheelwright init --preset paper16

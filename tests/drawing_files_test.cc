@@ -956,14 +956,6 @@ TEST_F(DrawingInACase, BadFilesExitWithCode2AndWriteNothing) {
   EXPECT_FALSE(fs::exists(folder() / "runs"));
 }
 
-TEST_F(DrawingInACase, WrongUnitsAreSuspected) {
-  write("mm.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n", 6));
-  const CaseResult result = read("[[shape.file]]\npath = \"mm.dxf\"\ncount = 16\n");
-  ASSERT_FALSE(result.problems.empty());
-  EXPECT_NE(result.problems[0].remedy.find("0.29 m if they are millimetres"), std::string::npos)
-      << result.problems[0].text();
-}
-
 /// The remedies of all problems.
 std::string remedies(const CaseResult& result) {
   std::string all;
@@ -976,7 +968,7 @@ std::string circle_dxf(double x, double radius, int unit) {
   return dxf(fmt::format("0\nCIRCLE\n10\n{}\n20\n0\n40\n{}\n", x, radius), unit);
 }
 
-/// A drawing in a wrong unit names the one with which it fits, and no other.
+// A drawing in a wrong unit names the one with which it fits, and no other.
 TEST_F(DrawingInACase, TheUnitWithWhichADrawingFitsIsNamed) {
   const std::map<std::string, std::pair<double, int>> units{
       {"m", {1, 6}}, {"cm", {1e-2, 5}}, {"mm", {1e-3, 4}}, {"in", {0.0254, 1}}};
@@ -1001,7 +993,7 @@ TEST_F(DrawingInACase, TheUnitWithWhichADrawingFitsIsNamed) {
     }
 }
 
-/// In the right unit a drawing of the wrong size names the sizes with which it fits.
+// In the right unit a drawing of the wrong size names the sizes with which it fits.
 TEST_F(DrawingInACase, TheSizeWithWhichADrawingFitsIsNamed) {
   const auto result_of = [&](double x, double radius) {
     write("holes.dxf", circle_dxf(x, radius, 4));

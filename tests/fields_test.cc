@@ -250,7 +250,9 @@ TEST(ContactPoints, TheirMeansOverCellsCarryTheSameForces) {
         EXPECT_NEAR(of_cells[i], of_points[i], 1e-9 * std::abs(of_points[i]) + 1e-12);
     }
     for (std::size_t k = 1; k < cells.size(); ++k) {
-      if (cells[k].position == cells[k - 1].position) EXPECT_GT(cells[k].x, cells[k - 1].x);
+      if (cells[k].position == cells[k - 1].position) {
+        EXPECT_GT(cells[k].x, cells[k - 1].x);
+      }
     }
   }
 }

@@ -117,7 +117,7 @@ TEST_F(ResultsOfARun, AreShownWithoutFailedNumbers) {
     for (const auto& [key, value] : all[shape].items()) {
       const bool is_missing = key == "force_variation_N" || key == "force_first_harmonic_N";
       EXPECT_TRUE(some[shape].contains(key)) << key;
-      if (key == "load_cases") continue;
+      if (key == "load_cases" || key == "errors") continue;
       EXPECT_EQ(some[shape][key], is_missing ? nlohmann::json() : value) << key;
     }
     EXPECT_EQ(some[shape]["missing"]["force_variation_N"], told);
@@ -130,6 +130,27 @@ TEST_F(ResultsOfARun, AreShownWithoutFailedNumbers) {
   EXPECT_TRUE(lines[0].ends_with(told)) << lines[0];
   EXPECT_NE(summary_table(some_results.summary).find(lines[0]), std::string::npos);
   EXPECT_TRUE(missing_lines(results(study, {}).summary).empty());
+}
+
+TEST_F(ResultsOfARun, HaveErrorsOfTheLastShapeUnderEveryLoad) {
+  const Study<2> study =
+      this->study("[[load.case]]\nname = \"straight\"\n[[load.case]]\nname = \"kerb\"\nmass = 400\n");
+  const FinalResults<2> of_run = results(study, {});
+  const auto json = nlohmann::json::parse(summary_json(of_run.summary));
+  EXPECT_FALSE(json["before"].contains("errors"));
+  for (const auto& wheel : {json["after"], json["after"]["load_cases"]["kerb"]}) {
+    EXPECT_EQ(wheel["errors"]["load_N"], 0);
+    for (const char* key :
+         {"mean_travel_m", "stiffness_N_per_m", "peak_pressure_Pa", "strain_energy_J_per_m"}) {
+      EXPECT_GT(wheel["errors"][key], 0) << key;
+      EXPECT_LT(wheel["errors"][key], 0.5 * wheel[key].get<double>()) << key;
+    }
+    EXPECT_FALSE(wheel["errors"].contains("minimum_wall_m"));
+  }
+  EXPECT_GT(json["after"]["errors"]["objective_J_per_m"], 0);
+  EXPECT_LT(json["after"]["errors"]["objective_J_per_m"],
+            0.2 * json["after"]["objective_J_per_m"].get<double>());
+  EXPECT_NE(summary_table(of_run.summary).find(" +- "), std::string::npos);
 }
 
 TEST_F(ResultsOfARun, AreThoseOfTheLastShapeWhereTheFirstHasNoSolution) {

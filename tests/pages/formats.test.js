@@ -25,6 +25,14 @@ test("what is no number is shown as a dash", () => {
   }
 });
 
+test("a number and its error have the same digits", () => {
+  assert.equal(formats.withError(0.380105, 0.00077), "0.3801 \u00b1 0.0008");
+  assert.equal(formats.withError(7742.61, 23), "7740 \u00b1 30");
+  assert.equal(formats.withError(-1.23456, 0.0131), "\u22121.235 \u00b1 0.014");
+  assert.equal(formats.withError(9.99, 0.0996), "9.99 \u00b1 0.10");
+  for (const error of [0, 1e-9, NaN, undefined]) assert.equal(formats.withError(2943, error), formats.shown(2943));
+});
+
 test("a short number has four digits", () => {
   assert.equal(Number(formats.short(1.23456)), 1.235);
   assert.equal(Number(formats.short(98765)), 98770);

@@ -129,6 +129,51 @@ test("a vertex of the wheel is one of the sector that contains the point", () =>
       assert.equal(nearest(planeView.turned([places[2 * k], places[2 * k + 1]], 2 * Math.PI * s / sectors)), s * n + k);
 });
 
+// Vertices of a wheel with holes across the faces of sectors, at the given radius.
+function verticesAroundHoles(sectors, middle, holeRadius) {
+  const places = [];
+  for (let r = 0.2; r <= 0.3001; r += 0.004)
+    for (let k = 0; k <= 20; ++k) {
+      const azimuth = 2 * Math.PI / sectors * k / 20, x = r * Math.cos(azimuth), y = r * Math.sin(azimuth);
+      const holes = [0, 2 * Math.PI / sectors].map((a) => [middle * Math.cos(a), middle * Math.sin(a)]);
+      if (holes.every(([a, b]) => Math.hypot(x - a, y - b) >= holeRadius)) places.push(x, y);
+    }
+  return Float32Array.from(places);
+}
+
+test("means of the vertices around a point are smooth in a hole, where those of the nearest vertices jump", () => {
+  const sectors = 16, middle = 0.25, places = verticesAroundHoles(sectors, middle, 0.03), n = places.length / 2;
+  const sharesAt = planeView.smoothShares(places, sectors), nearest = planeView.nearestInWheel(places, sectors);
+  const placeOf = (vertex) => planeView.turned([places[2 * (vertex % n)], places[2 * (vertex % n) + 1]],
+    2 * Math.PI * Math.floor(vertex / n) / sectors);
+  for (const s of [0, 5]) {
+    const turn = 2 * Math.PI * s / sectors;
+    const sideOf = (vertex) => Math.sign(planeView.turned(placeOf(vertex), -turn)[1] - 1e-9);  // of the hole's middle line
+    const step = 2e-4, means = [], jumps = [];
+    for (let y = -0.04; y <= 0.04; y += step) {
+      const point = planeView.turned([middle, y], turn), { vertices, shares } = sharesAt(point);
+      assert.ok(Math.abs(shares.reduce((a, b) => a + b, 0) - 1) < 1e-12 && shares.every((share) => share >= 0));
+      means.push(vertices.reduce((sum, vertex, i) => sum + shares[i] * sideOf(vertex), 0));
+      jumps.push(sideOf(nearest(point)));
+    }
+    const steepest = (values) => Math.max(...values.slice(1).map((v, k) => Math.abs(v - values[k])));
+    assert.equal(steepest(jumps), 2);
+    assert.ok(steepest(means) < 0.06, String(steepest(means)));
+    assert.ok(means[0] < -0.99 && means.at(-1) > 0.99);
+  }
+});
+
+test("the vertices with shares are those near the point, and are the same in all sectors", () => {
+  const sectors = 5, n = 800, places = verticesOfSector(sectors, n), sharesAt = planeView.smoothShares(places, sectors);
+  const here = sharesAt([0.25, 0.01]), there = sharesAt(planeView.turned([0.25, 0.01], 2 * Math.PI * 2 / sectors));
+  const sorted = ({ vertices, shares }, shift) => vertices.map((v, i) => [(v + shift * n) % (n * sectors), shares[i]])
+    .sort(([a], [b]) => a - b);
+  const [a, b] = [sorted(here, 2), sorted(there, 0)];
+  assert.deepEqual(a.map(([v]) => v), b.map(([v]) => v));
+  a.forEach(([, share], i) => assert.ok(Math.abs(share - b[i][1]) < 1e-5));
+  assert.ok(a.length > 3 && a.length < 0.05 * n * sectors, String(a.length));
+});
+
 test("the points of a circle come by azimuth, without the first of the next sector", () => {
   const at = (r, azimuth) => [r * Math.cos(azimuth), r * Math.sin(azimuth)];
   const places = [at(0.3, 0.4), at(0.2, 0.1), at(0.3, 0), at(0.3, 0.2), at(0.25, 0.3), at(0.3, 0.1)].flat();

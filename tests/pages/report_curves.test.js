@@ -49,6 +49,14 @@ test("curves over a sector are closed", () => {
   assert.deepEqual(after.y, [1, 2, 1]);
 });
 
+test("errors are bands around their curve, closed as it is", () => {
+  const errors = { travel_at_load_m: [1e-4, 3e-4], force_at_travel_N: null };
+  const [{ curves: [after] }] = reportCurves.all({ ...run, rolling: { before: null, after: { ...rolling, errors } } })
+    .filter(({ title }) => title.startsWith("Travel at fixed load"));
+  [0.1, 0.3, 0.1].forEach((error, k) => assert.ok(Math.abs(after.errors[k] - error) < 1e-9));
+  assert.equal(starting("Travel at fixed load")[0].curves[0].errors, undefined);
+});
+
 test("a harmonic of a sector has as many waves per revolution as there are sectors", () => {
   const [{ curves, options }] = starting("Spectrum");
   assert.deepEqual(options.labels, ["18", "36"]);

@@ -19,6 +19,12 @@ test("a comparison has a value for every wheel and a change for every wheel but 
   assert.deepEqual(mass.cells.map(({ key }) => key), ["mass_kg", "mass_kg", null, "mass_kg", null]);
 });
 
+test("a value is shown with its error, in the unit of the table", () => {
+  const { rows: [travel] } = reportTexts.comparison([group("", { mean_travel_m: 2e-3 },
+    { mean_travel_m: 1.2345e-3, errors: { mean_travel_m: 2e-5 } })]);
+  assert.deepEqual(travel.cells.map(({ text }) => text).slice(0, 2), ["2", "1.23 \u00b1 0.02"]);
+});
+
 test("quantities that no wheel has are not compared", () => {
   assert.equal(reportTexts.comparison([group("", { mass_kg: 4 }, {})]).rows.length, 1);
 });

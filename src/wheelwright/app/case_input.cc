@@ -10,7 +10,6 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/case/load_saved_shape.h"
-#include "wheelwright/case/read.h"
 #include "wheelwright/run/study/case_report.h"
 
 namespace wheelwright {
@@ -42,20 +41,27 @@ std::string why_no_case(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::optional<Case> read_or_report(const std::filesystem::path& file) {
-  if (const std::string reason = why_no_case(file); !reason.empty()) {
-    print_err("{}: {}\n", file.string(), reason);
-    return {};
-  }
-  CaseResult result = read_case(file);
-  if (result.value) return std::move(result.value);
+CaseResult read_case_file(const std::filesystem::path& file) {
+  if (const std::string reason = why_no_case(file); !reason.empty())
+    return {{},
+            {{.kind = Diagnostic::Kind::unreadable, .file = file.string(), .problem = reason, .remedy = {}}}};
+  return read_case(file);
+}
+
+void print_problems(const std::filesystem::path& file, const std::vector<Diagnostic>& problems) {
   constexpr std::size_t max_shown = 100;
-  const std::size_t n = result.problems.size();
-  for (std::size_t i = 0; i < std::min(n, max_shown); ++i) print_err("{}\n", result.problems[i].text());
+  const std::size_t n = problems.size();
+  for (std::size_t i = 0; i < std::min(n, max_shown); ++i) print_err("{}\n", problems[i].text());
+  if (n == 1 && problems.front().line == 0) return;  // of the file as a whole: there is nothing to count
   const std::string more = n > max_shown ? fmt::format("; {} of them are not shown", n - max_shown) : "";
   print_err("{}\n", styled(stderr, Style::red,
                            fmt::format("{}: {} problem{}{}", file.string(), n, n == 1 ? "" : "s", more)));
-  return {};
+}
+
+std::optional<Case> read_or_report(const std::filesystem::path& file) {
+  CaseResult result = read_case_file(file);
+  if (!result.value) print_problems(file, result.problems);
+  return std::move(result.value);
 }
 
 void warn_about(const std::string& wheel, const std::string& text) {
@@ -64,10 +70,6 @@ void warn_about(const std::string& wheel, const std::string& text) {
 
 void print_warning(std::FILE* stream, const std::string& text) {
   print_to(stream, "{} {}\n", styled(stream, Style::yellow, "warning:"), text);
-}
-
-void print_warnings(std::FILE* stream, const Case& c) {
-  for (const std::string& text : warnings(c)) print_warning(stream, text);
 }
 
 bool may_compute(const std::string& command, const Case& c, const std::filesystem::path& file,

@@ -7,16 +7,22 @@
 
 #include "wheelwright/base/expected.h"
 #include "wheelwright/case/case.h"
+#include "wheelwright/case/read.h"
 
 namespace wheelwright {
 
 // How commands read and check a case before they use it.
 
+/// The case in a file, or its problems; also those of a file that is no case.
+CaseResult read_case_file(const std::filesystem::path& file);
+
+/// Prints the problems of a file; not all if they are very many.
+void print_problems(const std::filesystem::path& file, const std::vector<Diagnostic>& problems);
+
 /// The case in a file. If it has problems, prints them and returns nothing: the command ends with exit_usage.
 std::optional<Case> read_or_report(const std::filesystem::path& file);
 
-/// Prints warnings about a case.
-void print_warnings(std::FILE* stream, const Case& c);
+/// Prints a warning.
 void print_warning(std::FILE* stream, const std::string& text);
 
 /// Prints a warning about the named wheel.

@@ -18,28 +18,10 @@ namespace {
 
 using Commands = std::vector<std::unique_ptr<Subcommand>>;
 
-constexpr const char* exit_codes =
-    "Exit codes:\n"
-    "  0    done\n"
-    "  1    a bug in the program\n"
-    "  2    wrong command line, or the case has errors or cannot be read\n"
-    "  3    the solver gave up\n"
-    "  4    refused: a file would be overwritten, another run is writing to the folder, an outline fails its "
-    "checks, "
-    "there is too little memory, or no documents are installed\n"
-    "  5    a file could not be written\n"
-    "  6    no usable checkpoint\n"
-    "  7    done, but the results differ from the expected ones of the case\n"
-    "  8    stopped before the first shape was saved: nothing to resume\n"
-    "  9    done, but the last shape violates a bound of the case\n"
-    "  129  stopped by SIGHUP (the terminal was closed); the run can be resumed\n"
-    "  130  stopped by SIGINT (Ctrl-C); the run can be resumed\n"
-    "  143  stopped by SIGTERM or by a file STOP in the run's folder; the run can be resumed";
-
 void declare(CLI::App& app, const Commands& commands) {
   app.require_subcommand(1);
   app.set_version_flag("--version", program_text());
-  app.footer(exit_codes);
+  app.footer(exit_code_list());
   for (const auto& command : commands) {
     Options options(*app.add_subcommand(command->name(), command->meaning()));
     command->declare(options);

@@ -4,14 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "wheelwright/base/available_memory.h"
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {
-
-/// Memory that this process may still take without swapping [bytes]: the minimum of what Linux calls
-/// available and what the control groups of the process, version 1 or 2, leave below their limits. Nothing if
-/// neither is known. `root` is the folder that contains proc and sys.
-std::optional<double> available_memory(const std::filesystem::path& root = "/");
 
 /// Why the available memory is too small for a case, and what helps; nothing if it suffices.
 std::optional<std::string> lack_of_memory(const Case& c, std::optional<double> available);

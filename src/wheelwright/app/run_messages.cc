@@ -18,36 +18,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
+int exit_code_of(const std::vector<Finding>& findings) {
+  return std::ranges::all_of(findings, &Finding::met) ? exit_done : exit_unexpected;
+}
+
+template <int dim>
+int exit_code_of(const OptimizationState<dim>& last, const std::vector<Finding>& findings) {
+  const auto bounds = bound_states(last.evaluation, last.memory.multipliers);
+  return std::ranges::all_of(bounds, &BoundState::is_kept) ? exit_code_of(findings) : exit_infeasible;
+}
+
 /// Prints expected and actual values.
-int report_findings(const std::vector<Finding>& findings) {
+void report_findings(const std::vector<Finding>& findings, std::FILE* stream) {
   const auto unmet = std::ranges::count_if(findings, [](const Finding& f) { return !f.met(); });
   if (!findings.empty())
-    print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
+    print_to(stream, "expected   {} of {} values found\n", findings.size() - unmet, findings.size());
   for (const Finding& finding : findings)
     if (!finding.met()) print_err("wheelwright: {}\n", finding.text());
-  return unmet > 0 ? exit_unexpected : exit_done;
 }
 
 /// Prints which bounds the last shape keeps.
 template <int dim>
-int report_bounds(const OptimizationState<dim>& state) {
-  const auto bounds = bound_states(state.evaluation, state.memory.multipliers);
-  int code = exit_done;
-  for (const BoundState& bound : bounds) {
-    if (bound.is_kept()) {
-      print("bound      {}\n", text(bound, state.shape.lattice.grid()));
-      continue;
-    }
-    print_err("wheelwright: bound {}\n", text(bound, state.shape.lattice.grid()));
-    code = exit_infeasible;
+void report_bounds(const OptimizationState<dim>& state, std::FILE* stream) {
+  for (const BoundState& bound : bound_states(state.evaluation, state.memory.multipliers)) {
+    const std::string line = text(bound, state.shape.lattice.grid());
+    if (bound.is_kept())
+      print_to(stream, "bound      {}\n", line);
+    else
+      print_err("wheelwright: bound {}\n", line);
   }
-  return code;
 }
 
 /// One overload for each reason not to start.
 template <int dim>
 struct NotBegunReport {
   const fs::path& folder;
+  std::FILE* stream;  ///< of results
 
   int operator()(const FolderInUse& in_use) const {
     print_err("{}: {} is writing to this folder\n", folder.string(), to_string(in_use));
@@ -83,12 +89,13 @@ struct NotBegunReport {
   int operator()(const AlreadyFinished<dim>& finished) const {
     report_unusable(finished.unusable);
     const Checkpoint<dim>& end = finished.end;
-    print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration, text(*end.finished));
+    print_to(stream, "{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration,
+             text(*end.finished));
     if (end.finished == StopReason::iterations)
-      print("to extend it: wheelwright resume {} --iterations N\n", folder.string());
-    const int bounds = report_bounds(end.state);
-    const int expected = report_findings(finished.findings);
-    return bounds == exit_done ? expected : bounds;
+      print_to(stream, "to extend it: wheelwright resume {} --iterations N\n", folder.string());
+    report_bounds(end.state, stream);
+    report_findings(finished.findings, stream);
+    return exit_code_of(end.state, finished.findings);
   }
   int operator()(const Failure& failure) const {
     print_err("wheelwright: {}\n", to_string(failure));
@@ -118,7 +125,7 @@ void print_summary(const RunResult<dim>& result, const fs::path& folder) {
 }
 
 template <int dim>
-int report_failure(const RunResult<dim>& result, const fs::path& folder) {
+void report_failure(const RunResult<dim>& result, const fs::path& folder) {
   print_err("wheelwright: {}\n",
             failure_headline<dim>(result.state ? &*result.state : nullptr, result.failed_trials));
   if (result.state)
@@ -129,7 +136,6 @@ int report_failure(const RunResult<dim>& result, const fs::path& folder) {
   };
   line(failure_report_file, "every failed trial, and the contents of this folder");
   line(rejected_picture_file, "the shape that failed");
-  return exit_no_solution;
 }
 
 template <int dim>
@@ -157,8 +163,8 @@ void report_unusable(const std::vector<UnusableCheckpoint>& unusable) {
 }
 
 template <int dim>
-int report_not_begun(const NotBegun<dim>& reason, const fs::path& folder) {
-  return std::visit(NotBegunReport<dim>{folder}, reason);
+int report_not_begun(const NotBegun<dim>& reason, const fs::path& folder, std::FILE* stream) {
+  return std::visit(NotBegunReport<dim>{folder, stream}, reason);
 }
 
 int report_not_begun_by_signal() {
@@ -179,25 +185,39 @@ void report_resumption(const Resumption& resumption, const fs::path& folder) {
 }
 
 template <int dim>
+int exit_code_of(const RunResult<dim>& result, const Signals& signals) {
+  if (result.reason == StopReason::stop_requested)
+    return result.state ? exit_code_of_stop(signals) : exit_nothing_saved;
+  if (result.reason == StopReason::failed_start || result.reason == StopReason::gave_up)
+    return exit_no_solution;
+  return exit_code_of(*result.state, result.findings);
+}
+
+template <int dim>
 int report_result(const RunResult<dim>& result, const fs::path& folder, const Signals& signals) {
+  const int code = exit_code_of(result, signals);
   if (result.reason == StopReason::stop_requested) {
     tell_stop(result, folder);
     if (result.state) print_files(folder);
-    return result.state ? exit_code_of_stop(signals) : exit_nothing_saved;
+    return code;
   }
-  if (result.reason == StopReason::failed_start) return report_failure(result, folder);
-  print_summary(result, folder);
-  if (result.reason == StopReason::gave_up) return report_failure(result, folder);
-  const int bounds = report_bounds(*result.state);
+  if (result.reason != StopReason::failed_start) print_summary(result, folder);
+  if (code == exit_no_solution) {
+    report_failure(result, folder);
+    return code;
+  }
+  report_bounds(*result.state, stdout);
   if (result.summary && !result.summary->bounded_peaks.empty())
     print("           {}\n", result.summary->bounded_peaks);
-  const int expected = report_findings(result.findings);
-  return bounds == exit_done ? expected : bounds;
+  report_findings(result.findings, stdout);
+  return code;
 }
 
 template decltype(report_not_begun<2>) report_not_begun<2>;
+template int exit_code_of(const RunResult<2>&, const Signals&);
 template decltype(report_result<2>) report_result<2>;
 template decltype(report_not_begun<3>) report_not_begun<3>;
+template int exit_code_of(const RunResult<3>&, const Signals&);
 template decltype(report_result<3>) report_result<3>;
 
 }  // namespace wheelwright

@@ -37,6 +37,18 @@ void add_verbose(Options& options, bool& verbose) {
   options.flag("--verbose", verbose, "Show every trial shape, with the reason if it is rejected");
 }
 
+void add_events(Options& options, std::optional<std::string>& format) {
+  options.text(
+      "--events", "json", format,
+      [](const std::string& text) { return text == "json" ? "" : "must be json"; },
+      "Print only what happens, as one JSON object per line, for a program (docs/driving.md)");
+}
+
+void add_without_errors(Options& options, bool& without_errors) {
+  options.flag("--without-errors", without_errors,
+               "Do not solve on a finer grid too, from which the errors of the numbers are estimated");
+}
+
 std::string not_empty(const std::string& text) { return text.empty() ? "must not be empty" : ""; }
 
 }  // namespace wheelwright

@@ -24,6 +24,12 @@ void add_output(Options& options, std::optional<std::string>& folder, const std:
 /// --verbose
 void add_verbose(Options& options, bool& verbose);
 
+/// --events json
+void add_events(Options& options, std::optional<std::string>& format);
+
+/// --without-errors
+void add_without_errors(Options& options, bool& without_errors);
+
 /// An Options::Check that rejects empty names.
 std::string not_empty(const std::string& text);
 

@@ -6,9 +6,7 @@
 #include "wheelwright/app/trial_log.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/unlimited.h"
-#include "wheelwright/quantities/analysis/deformation_size.h"
-#include "wheelwright/run/study/feature_warnings.h"
-#include "wheelwright/run/study/roughness_warning.h"
+#include "wheelwright/run/observers/run_warnings.h"
 
 namespace wheelwright {
 namespace {
@@ -21,14 +19,16 @@ class TerminalObserver : public Observer<dim> {
 
   void operator()(const Event<dim>& event, const RunView<dim>& run) override {
     if (const auto* started = std::get_if<RunStarted>(&event)) begin(*started, run);
-    if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
     if (const auto* advanced = std::get_if<ContactAdvanced>(&event))
       progress_->show_step(text(advanced->progress), run.elapsed_seconds);
     if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
       progress_->note((command->was_executed ? "" : "refused: ") + command->text);
-    if (const auto* failed = std::get_if<StageFailed>(&event))
-      warn(run, failed->stage.c_str(), failed->reason);
-    if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) end(*ended, run);
+    if (const auto* ended = std::get_if<RunEnded<dim>>(&event); ended && is_normal_end(ended->reason))
+      progress_->complete();
+    for (const auto& [subject, text] : run_warnings(event, run))
+      progress_->note(fmt::format("warning: {}, {}: {}", run.folder.string(), subject, text));
+    if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
+    if (std::holds_alternative<RunEnded<dim>>(event)) progress_->end();
   }
 
  private:
@@ -36,16 +36,11 @@ class TerminalObserver : public Observer<dim> {
     if (started.resumed_after) return;
     if (const auto change = volume_change_of_saved_shape<dim>(run.study.source))
       progress_->note(text(*change));
-    for (const auto& event : lost_on_the_grid<dim>(run.study.source))
-      warn(run, "initial shape", "the grid is too coarse for the holes of the case: " + text(event));
   }
 
   void show(const TrialDone<dim>& done, const RunView<dim>& run) {
     const auto& [trial, state, seconds] = done;
     if (trial.verdict != Verdict::accepted) return;
-    if (state.iteration == 0 && trial.solution)
-      warn(run, "initial shape",
-           deformation_warning(deformation_size(*run.study.solver, trial.shape, *trial.solution)));
     const PolarGrid<dim>& grid = run.study.grid();
     const int asked = run.study.optimizer.iterations;
     const ShownUnit shown = shown_unit(run.study.source.objective.minimize, run.study.source.wheel);
@@ -57,25 +52,6 @@ class TerminalObserver : public Observer<dim> {
                      .step = trial.step * grid.resolution(),
                      .elapsed_seconds = run.elapsed_seconds,
                      .objective_unit = shown.name});
-  }
-
-  void end(const RunEnded<dim>& ended, const RunView<dim>& run) {
-    if (is_normal_end(ended.reason)) progress_->complete();
-    if (ended.summary) {
-      const DescribedWheel<dim>& wheel = ended.summary->after.wheel;
-      if (wheel.loaded) warn(run, "last shape", deformation_warning(wheel.loaded->summary.deformation));
-      if (wheel.outline)
-        for (const std::string& warning : feature_warnings(run.study.source, *wheel.outline))
-          warn(run, "last shape", warning);
-      warn(run, "last shape",
-           roughness_warning(run.study.source, roughness(wheel), roughness(ended.summary->before.wheel)));
-    }
-    progress_->end();
-  }
-
-  /// Nothing if the text is empty.
-  void warn(const RunView<dim>& run, const char* which, const std::string& text) {
-    if (!text.empty()) progress_->note(fmt::format("warning: {}, {}: {}", run.folder.string(), which, text));
   }
 
   static bool is_normal_end(StopReason reason) {

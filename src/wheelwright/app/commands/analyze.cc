@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <locale>
+#include <sstream>
 
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
@@ -20,6 +22,8 @@
 #include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
+#include "wheelwright/run/results/finer_wheel.h"
+#include "wheelwright/run/results/refined_numbers.h"
 #include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
@@ -44,10 +48,28 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
                        .analysis = rolling_analysis(solver, solution),
                        .loads = {},
                        .under_loads = {},
-                       .dimension = dim};
+                       .dimension = dim,
+                       .finer = {}};
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
   report.under_loads = under_loads<dim>(solution, report.loads);
   return report;
+}
+
+std::string why(const Failure& failure) {
+  return fmt::format("on the finer grid: {}: {}", to_string(failure.reason), failure.detail);
+}
+
+/// The analysis under the same loads on the next finer grid, or why there is none.
+template <int dim>
+Expected<FinerReport, std::string> finer_report(const Case& c, const std::vector<double>& loads,
+                                                const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
+  const auto finer = finer_shape(c, solver, shape);
+  if (!finer) return finer.failure();
+  const StateSolver<dim>& on_finer = *finer->solver;
+  const auto states = on_finer.states(finer->shape, on_finer.all_positions(), print_contact_progress());
+  if (!states) return why(states.failure());
+  return FinerReport{rolling_analysis(on_finer, **states), under_loads<dim>(**states, loads),
+                     finer->refinement};
 }
 
 void write_plots(const std::filesystem::path& folder, const RollingReport& report) {
@@ -79,6 +101,25 @@ std::string check_loads(const std::string& text) {
   return parse_loads(text) ? "" : "must be loads > 0, as in 1000,2000 or 500:3000:6";
 }
 
+/// "0.5%" or "0.005", between 0 and 1.
+std::optional<double> parse_accuracy(const std::string& text) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value;
+  if (!(stream >> value)) return {};
+  std::string rest;
+  std::getline(stream, rest);
+  if (rest == "%")
+    value /= 100;
+  else if (!rest.empty())
+    return {};
+  return value > 0 && value < 1 ? std::optional(value) : std::nullopt;
+}
+
+std::string check_accuracy(const std::string& text) {
+  return parse_accuracy(text) ? "" : "must be a part of each number, as in 0.5% or 0.005";
+}
+
 class AnalyzeCommand : public Subcommand {
  public:
   AnalyzeCommand() : Subcommand("analyze", "Report stiffness, contact, stress and run-out of one shape") {}
@@ -94,6 +135,10 @@ class AnalyzeCommand : public Subcommand {
         "Compute the wheel under this [[load.case]] instead of the first one");
     add_output(options, output_, "Folder for JSON and plots; without it only the table is printed");
     options.flag("--json", json_, "Print JSON instead of the table");
+    add_without_errors(options, without_errors_);
+    options.text("--accuracy", "PERCENT%", accuracy_, check_accuracy,
+                 "Solve on finer grids until every number is this accurate, or say why it is not; grids have "
+                 "at most 5e6 unknowns, in 3D 1e6");
     add_threads(options, threads_);
   }
 
@@ -140,7 +185,11 @@ class AnalyzeCommand : public Subcommand {
     if (!solved) return report_failure(name(), solved.failure());
     if (const auto failure = material_overlaps(solver, shape, **solved))
       return report_failure(name(), *failure);
-    const auto report = rolling_report(wheel, loads(), solver, **solved);
+    RollingReport report = rolling_report(wheel, loads(), solver, **solved);
+    if (!without_errors_) report.finer = finer_report(with_levels_of_results(c), report.loads, solver, shape);
+    if (accuracy_)
+      report.accurate = refined_numbers(with_levels_of_results(c), solver, shape, solved,
+                                        *parse_accuracy(*accuracy_), print_contact_progress());
     print_report(report);
     const auto size = deformation_size(solver, shape, **solved);
     if (const std::string warning = deformation_warning(size); !warning.empty())
@@ -167,9 +216,9 @@ class AnalyzeCommand : public Subcommand {
 
   std::string input_;
   int positions_ = 64;
-  std::optional<std::string> loads_, load_case_, output_;
+  std::optional<std::string> loads_, load_case_, output_, accuracy_;
   std::optional<int> threads_;
-  bool json_ = false;
+  bool json_ = false, without_errors_ = false;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/run/study/bound_warnings.h"
 #include "wheelwright/run/study/case_report.h"
+#include "wheelwright/run/study/checked_case.h"
 #include "wheelwright/run/study/feature_warnings.h"
 #include "wheelwright/run/study/filled_holes.h"
 #include "wheelwright/run/study/loose_material.h"
@@ -25,47 +26,85 @@ class CheckCommand : public Subcommand {
  public:
   CheckCommand() : Subcommand("check", "Report all problems of a case, or the values derived from it") {}
 
-  void declare(Options& options) override { add_case(options, case_file_); }
+  void declare(Options& options) override {
+    add_case(options, case_file_);
+    options.flag("--json", json_, "Print JSON instead of the report");
+  }
 
   int run() override {
-    const auto c = read_or_report(case_file_);
-    if (!c) return exit_usage;
-    const auto lack = lack_of_memory(*c, available_memory());
-    const auto loose = lack ? std::vector<std::string>() : loose_material(*c);
-    for (const std::string& piece : loose) print_err("{}: {}\n", case_file_, piece);
-    if (!loose.empty()) return exit_usage;
-    const auto filled = lack ? std::nullopt : in_dimension_of(*c, [&](auto dim) {
-      return filled_holes(initial_shape<dim>(*c), evolution_options(*c));
-    });
-    if (filled) {
-      print_err("{}: {}\n", case_file_, filled->detail);
-      return exit_usage;
-    }
-    print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
-    print_lines(stdout, derived_report(*c));
-    if (lack) {
-      print_warnings(stdout, *c);
-      print_warning(stdout, "this case cannot run here: " + *lack);
-      return exit_done;
-    }
-    const auto change = in_dimension_of(*c, [&](auto dim) { return volume_change_of_saved_shape<dim>(*c); });
-    if (change) print("{}\n", text(*change));
-    const auto measures = initial_outline_measures(*c);
-    if (measures) print_lines(stdout, clearance_report(measures->clearances));
-    const auto planes = plane_comparison(*c);
-    if (planes && *planes) print_lines(stdout, comparison_text(**planes));
-    print_warnings(stdout, *c);
-    if (planes && *planes)
-      if (const auto warning = plane_warning(*c, **planes)) print_warning(stdout, *warning);
-    if (const auto warning = predicted_warning(*c)) print_warning(stdout, *warning);
-    for (const std::string& warning : bound_warnings(*c)) print_warning(stdout, warning);
-    if (!measures) print_warning(stdout, "walls and gaps were not measured: " + measures.failure().what);
-    if (measures)
-      for (const std::string& warning : feature_warnings(*c, *measures)) print_warning(stdout, warning);
-    return exit_done;
+    const CheckedCase checked = check();
+    if (json_)
+      print_lines(stdout, check_json(checked));
+    else
+      print_report(checked);
+    return checked.value ? exit_done : exit_usage;
   }
 
  private:
+  CheckedCase check() const {
+    CaseResult read = read_case_file(case_file_);
+    CheckedCase checked{
+        .file = case_file_, .value = std::move(read.value), .problems = std::move(read.problems)};
+    if (!checked.value) return checked;
+    if (const auto lack = lack_of_memory(*checked.value, available_memory())) {
+      checked.notes.push_back(derived_report(*checked.value));
+      checked.warnings = warnings(*checked.value);
+      checked.warnings.push_back("this case cannot run here: " + *lack);
+      return checked;
+    }
+    checked.problems = problems_of_initial_shape(*checked.value);
+    if (checked.problems.empty())
+      examine(*checked.value, checked);
+    else
+      checked.value.reset();
+    return checked;
+  }
+
+  /// What only the drawn shape shows.
+  std::vector<Diagnostic> problems_of_initial_shape(const Case& c) const {
+    std::vector<Diagnostic> problems;
+    const auto add = [&](const std::string& problem) {
+      problems.push_back(
+          {.kind = Diagnostic::Kind::conflict, .file = case_file_, .problem = problem, .remedy = {}});
+    };
+    for (const std::string& piece : loose_material(c)) add(piece);
+    if (!problems.empty()) return problems;
+    const auto filled = in_dimension_of(
+        c, [&](auto dim) { return filled_holes(initial_shape<dim>(c), evolution_options(c)); });
+    if (filled) add(filled->detail);
+    return problems;
+  }
+
+  /// Adds what can be said of a case without problems.
+  static void examine(const Case& c, CheckedCase& checked) {
+    const auto warn = [&](const std::optional<std::string>& text) {
+      if (text) checked.warnings.push_back(*text);
+    };
+    checked.notes.push_back(derived_report(c));
+    if (const auto change =
+            in_dimension_of(c, [&](auto dim) { return volume_change_of_saved_shape<dim>(c); }))
+      checked.notes.push_back(text(*change) + '\n');
+    const auto measures = initial_outline_measures(c);
+    if (measures) checked.clearances = measures->clearances;
+    if (measures) checked.notes.push_back(clearance_report(measures->clearances));
+    const auto planes = plane_comparison(c);
+    if (planes && *planes) checked.notes.push_back(comparison_text(**planes));
+    checked.warnings = warnings(c);
+    if (planes && *planes) warn(plane_warning(c, **planes));
+    warn(predicted_warning(c));
+    for (const std::string& warning : bound_warnings(c)) warn(warning);
+    if (!measures) warn("walls and gaps were not measured: " + measures.failure().what);
+    if (measures)
+      for (const std::string& warning : feature_warnings(c, *measures)) warn(warning);
+  }
+
+  void print_report(const CheckedCase& checked) const {
+    if (!checked.value) return print_problems(case_file_, checked.problems);
+    print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
+    for (const std::string& note : checked.notes) print_lines(stdout, note);
+    for (const std::string& warning : checked.warnings) print_warning(stdout, warning);
+  }
+
   static std::optional<Expected<PlaneComparison>> plane_comparison(const Case& c) {
     if (c.wheel.dimension == 3 || c.contact.with != Counterpart::ground) return {};
     const SlowStage stage("comparing plane strain and plane stress with three dimensions, on a coarse grid");
@@ -78,6 +117,7 @@ class CheckCommand : public Subcommand {
   }
 
   std::string case_file_;
+  bool json_ = false;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/output/report/wheel_comparison.h"
+#include "wheelwright/run/results/finer_wheel.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
 
@@ -17,8 +18,18 @@ namespace {
 /// All files that are written to the folder: add the names of new files here.
 constexpr std::string_view files_of_comparison[] = {"comparison.txt", "comparison.json", "comparison.svg"};
 
-/// Solves a wheel at its load positions.
-Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
+/// The wheel on the next finer grid, at all load positions.
+KnownFinerWheel<2> finer_wheel_of(const Case& c, const LoadCases<2>& cases, const StateSolver<2>& solver,
+                                  const LevelSet<2>& shape) {
+  const auto finer = finer_shape(c, solver, shape);
+  if (!finer) return finer.failure();
+  return finer_wheel(
+      c, cases, *finer,
+      finer->solver->states(finer->shape, finer->solver->all_positions(), print_contact_progress()));
+}
+
+/// Solves a wheel at its load positions, and for the errors of its numbers on a finer grid too.
+Expected<ComparedWheel> compared(const WheelInput<2>& wheel, bool wants_errors) {
   const Case c = with_levels_of_results(wheel.source);
   const auto solver = make_solver(rolling_model<2>(c));
   if (!solver) return solver.failure();
@@ -26,8 +37,10 @@ Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
   const auto states = (*solver)->states(shape, (*solver)->all_positions(), print_contact_progress());
   if (!states) return states.failure();
   const PolarGrid<2>& grid = shape.lattice.grid();
-  auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), states,
-                                 load_cases<2>(c));
+  const auto cases = load_cases<2>(c);
+  auto numbers =
+      described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), states, cases);
+  if (wants_errors) numbers = with_errors(std::move(numbers), finer_wheel_of(c, cases, **solver, shape));
   numbers.name = wheel.name;
   numbers.which = wheel.which;
   return ComparedWheel{std::move(numbers),
@@ -46,6 +59,7 @@ class CompareCommand : public Subcommand {
     add_output(options, output_,
                "Folder for comparison.txt, .json and .svg; without it the table is printed");
     options.flag("--json", json_, "Print JSON instead of the table");
+    add_without_errors(options, without_errors_);
     add_threads(options, threads_);
   }
 
@@ -64,7 +78,7 @@ class CompareCommand : public Subcommand {
   int compare(const std::vector<WheelInput<2>>& inputs) const {
     std::vector<ComparedWheel> wheels;
     for (const WheelInput<2>& input : inputs) {
-      auto wheel = compared(input);
+      auto wheel = compared(input, !without_errors_);
       if (!wheel) {
         print_err("{}:\n", input.name);
         return report_failure(name(), wheel.failure());
@@ -88,7 +102,7 @@ class CompareCommand : public Subcommand {
   int positions_ = 64;
   std::optional<std::string> output_;
   std::optional<int> threads_;
-  bool json_ = false;
+  bool json_ = false, without_errors_ = false;
 };
 
 }  // namespace

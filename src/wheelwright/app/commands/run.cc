@@ -2,6 +2,7 @@
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/execute.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/guarded.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/load_saved_shape.h"
@@ -39,9 +40,17 @@ class RunCommand : public Subcommand {
     add_iterations(options, iterations_);
     add_threads(options, threads_);
     add_verbose(options, verbose_);
+    add_events(options, events_);
   }
 
   int run() override {
+    if (!events_) return optimize({verbose_ ? Detail::every_trial : Detail::progress});
+    EventOutput events;
+    return events.end(guarded("wheelwright run", [&] { return optimize({.events = &events}); }));
+  }
+
+ private:
+  int optimize(const Reporting& reporting) {
     Signals signals;
     const bool from_run = is_folder(case_file_);
     if (from_run && !output_) {
@@ -53,13 +62,11 @@ class RunCommand : public Subcommand {
     if (!c) return exit_usage;
     if (iterations_) c = with_iterations(*std::move(c), *iterations_);
     if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;
-    return begin_run(*c, output_.value_or(c->output.folder), signals,
-                     verbose_ ? Detail::every_trial : Detail::progress);
+    return begin_run(*c, output_.value_or(c->output.folder), signals, reporting);
   }
 
- private:
   std::string case_file_;
-  std::optional<std::string> output_;
+  std::optional<std::string> output_, events_;
   std::optional<int> iterations_, threads_;
   bool verbose_ = false;
 };

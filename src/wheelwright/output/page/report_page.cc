@@ -11,6 +11,7 @@
 #include "wheelwright/output/page/report_run.h"
 #include "wheelwright/output/report/numbers_json.h"
 #include "wheelwright/output/report/svg.h"
+#include "wheelwright/quantities/analysis/discretization_error.h"
 
 namespace wheelwright {
 namespace {
@@ -85,7 +86,32 @@ Json harmonics_json(const Expected<std::vector<double>>& values, double factor) 
   return values ? curve_json(rolling_variation(*values).harmonics, factor) : Json();
 }
 
-/// The curves over the load positions; null if the wheel has no solution.
+std::vector<double> peak_pressures(const RollingAnalysis& a) {
+  std::vector<double> values;
+  for (const ContactSummary& contact : a.positions) values.push_back(contact.peak_pressure);
+  return values;
+}
+
+/// null if one of the two could not be computed.
+Json errors_json(const Expected<std::vector<double>>& values, const Expected<std::vector<double>>& on_finer,
+                 double refinement, double factor) {
+  if (!values || !on_finer) return {};
+  return curve_json(discretization_errors(*values, *on_finer, refinement), factor);
+}
+
+/// The errors of the curves over the load positions; null if they are not known.
+template <int dim>
+Json rolling_errors_json(const DescribedWheel<dim>& wheel) {
+  if (!wheel.finer || !*wheel.finer || !(*wheel.finer)->wheel.loaded) return {};
+  const RollingAnalysis &a = wheel.loaded->rolling, &finer = (*wheel.finer)->wheel.loaded->rolling;
+  const double width = whole_width(dim, wheel.grid.width), r = (*wheel.finer)->refinement;
+  return {{"travel_at_load_m", errors_json(a.travel_at_load, finer.travel_at_load, r, 1)},
+          {"force_at_travel_N", errors_json(a.force_at_travel, finer.force_at_travel, r, width)},
+          {"peak_von_mises_Pa", discretization_errors(a.peak_von_mises, finer.peak_von_mises, r)},
+          {"peak_pressure_Pa", discretization_errors(peak_pressures(a), peak_pressures(finer), r)}};
+}
+
+/// The curves over the load positions, and their errors; null if the wheel has no solution.
 template <int dim>
 Json rolling_json(const DescribedWheel<dim>& wheel) {
   if (!wheel.loaded) return {};
@@ -95,10 +121,10 @@ Json rolling_json(const DescribedWheel<dim>& wheel) {
             {"travel_at_load_m", curve_json(a.travel_at_load, 1)},
             {"force_at_travel_N", curve_json(a.force_at_travel, width)},
             {"peak_von_mises_Pa", a.peak_von_mises},
-            {"peak_pressure_Pa", Json::array()},
+            {"peak_pressure_Pa", peak_pressures(a)},
             {"travel_harmonics_m", harmonics_json(a.travel_at_load, 1)},
             {"force_harmonics_N", harmonics_json(a.force_at_travel, width)}};
-  for (const ContactSummary& contact : a.positions) json["peak_pressure_Pa"].push_back(contact.peak_pressure);
+  if (Json errors = rolling_errors_json(wheel); !errors.is_null()) json["errors"] = std::move(errors);
   return json;
 }
 

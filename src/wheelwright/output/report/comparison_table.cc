@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/output/report/value_with_error.h"
+
 namespace wheelwright {
 namespace {
 
-constexpr int value_width = 12, change_width = 12;
+constexpr std::size_t value_width = 12, change_width = 12;
 
 using Value = std::optional<KnownNumber>;
 
@@ -26,8 +28,27 @@ std::string change(const Value& first_value, const Value& other) {
   return fmt::format("{:+.2f} %", percents);
 }
 
-std::string shortened(const std::string& name) {
-  return name.size() < value_width ? name : name.substr(0, value_width - 3) + "..";
+std::string shortened(const std::string& name, std::size_t width) {
+  return name.size() < width ? name : name.substr(0, width - 3) + "..";
+}
+
+std::optional<double> error_of(const ComparedRow& row, std::size_t wheel) {
+  return wheel < row.errors.size() ? row.errors[wheel] : std::nullopt;
+}
+
+constexpr const char* within_errors = " ~";
+
+/// Whether the difference to the first value is smaller than the errors that are known of the two.
+bool is_within_errors(const ComparedRow& row, std::size_t wheel) {
+  if (!is_known(row.values[0]) || !is_known(row.values[wheel])) return false;
+  const double errors = error_of(row, 0).value_or(0) + error_of(row, wheel).value_or(0);
+  const double difference = std::abs(**row.values[wheel] - **row.values[0]);
+  return difference > 0 && difference <= errors;
+}
+
+std::string value_text(const ComparedRow& row, std::size_t wheel) {
+  if (!is_known(row.values[wheel])) return "-";
+  return text_with_error(**row.values[wheel], error_of(row, wheel).value_or(0));
 }
 
 /// The numbers that are missing of some wheels for one reason.
@@ -80,10 +101,13 @@ std::string text(const MissingNumbers& missing) {
 template <int dim>
 void add_row(const WheelNumber<dim>& number, const std::string& in_case,
              const std::vector<const DescribedWheel<dim>*>& wheels, std::vector<ComparedRow>& rows) {
+  const double factor = number.shown().factor;
   ComparedRow row{fmt::format("{}{} [{}]", number.label, in_case, number.shown().name), {}};
   for (const DescribedWheel<dim>* wheel : wheels) {
     const auto value = wheel ? number.value(*wheel) : std::nullopt;
-    row.values.push_back(is_known(value) ? Value(**value * number.shown().factor) : value);
+    row.values.push_back(is_known(value) ? Value(**value * factor) : value);
+    const auto error = wheel ? error_of(number, *wheel) : std::nullopt;
+    row.errors.push_back(is_known(error) ? std::optional(**error * factor) : std::nullopt);
   }
   if (std::ranges::any_of(row.values, [](const auto& value) { return value.has_value(); }))
     rows.push_back(std::move(row));
@@ -127,22 +151,33 @@ std::vector<std::string> missing_lines(const std::vector<std::string>& wheels,
 
 std::string comparison_table(const std::vector<std::string>& wheels, const std::vector<ComparedRow>& rows) {
   std::size_t label_width = 0;
-  for (const ComparedRow& row : rows) label_width = std::max(label_width, row.label.size());
-  const auto cells = [](bool has_change, const std::string& value, const std::string& relative) {
-    std::string text = fmt::format("{:>{}}", value, value_width);
-    return has_change ? text + fmt::format("{:>{}}", relative, change_width) : text;
+  std::vector<std::size_t> widths(wheels.size(), value_width);
+  for (const ComparedRow& row : rows) {
+    label_width = std::max(label_width, row.label.size());
+    for (std::size_t k = 0; k < wheels.size(); ++k)
+      widths[k] = std::max(widths[k], value_text(row, k).size() + 2);
+  }
+  const auto cells = [&](std::size_t k, const std::string& value, const std::string& relative) {
+    std::string text = fmt::format("{:>{}}", value, widths[k]);
+    return k > 0 ? text + fmt::format("{:>{}}", relative, change_width) : text;
   };
   std::string table(label_width, ' ');
-  for (std::size_t k = 0; k < wheels.size(); ++k) table += cells(k > 0, shortened(wheels[k]), "change");
+  for (std::size_t k = 0; k < wheels.size(); ++k)
+    table += cells(k, shortened(wheels[k], widths[k]), "change");
   table += '\n';
+  bool has_small_change = false;
   for (const ComparedRow& row : rows) {
     if (std::ranges::none_of(row.values, is_known)) continue;
     table += fmt::format("{:<{}}", row.label, label_width);
-    for (std::size_t k = 0; k < row.values.size(); ++k)
-      table += cells(k > 0, is_known(row.values[k]) ? fmt::format("{:.6g}", **row.values[k]) : "-",
-                     change(row.values[0], row.values[k]));
+    for (std::size_t k = 0; k < row.values.size(); ++k) {
+      const bool is_small = k > 0 && is_within_errors(row, k);
+      has_small_change = has_small_change || is_small;
+      table += cells(k, value_text(row, k),
+                     change(row.values[0], row.values[k]) + (is_small ? within_errors : ""));
+    }
     table += '\n';
   }
+  if (has_small_change) table += "~ the change is smaller than the discretization errors\n";
   for (const std::string& line : missing_lines(wheels, rows)) table += line + '\n';
   return table;
 }

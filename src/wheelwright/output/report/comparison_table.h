@@ -12,6 +12,8 @@ namespace wheelwright {
 struct ComparedRow {
   std::string label;
   std::vector<std::optional<KnownNumber>> values;  ///< one per wheel; nothing if it has none
+  /// Estimates of the errors of known values; nothing where there is none. Empty: of no wheel.
+  std::vector<std::optional<double>> errors = {};
 };
 
 /// The numbers (numbers_of the first one) that at least one of the wheels has or should have; then, for every
@@ -23,8 +25,9 @@ std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<di
 std::vector<std::string> missing_lines(const std::vector<std::string>& wheels,
                                        const std::vector<ComparedRow>& rows);
 
-/// One line per quantity: the value of every wheel and, from the second wheel on, its relative change from
-/// the first. A change that is not finite is omitted. Followed by the missing_lines.
+/// One line per quantity: the value of every wheel, with its error if that is known, and, from the second
+/// wheel on, its relative change from the first. A change that is not finite is omitted; one that the errors
+/// of the two values may explain is marked, and a line tells so. Followed by the missing_lines.
 std::string comparison_table(const std::vector<std::string>& wheels, const std::vector<ComparedRow>& rows);
 
 }  // namespace wheelwright

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "wheelwright/cad/outline/fit_outline.h"
+#include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/functionals/quantities.h"
 
 namespace wheelwright {
@@ -121,15 +123,15 @@ std::optional<cad::Roughness> roughness(const DescribedWheel<dim>& wheel) {
 }
 
 template <int dim>
-DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                    double volume_fraction, const SolvedStates<dim>& states,
-                                    const LoadCases<dim>& cases, const OwnNumbers<dim>& own_numbers) {
+DescribedWheel<dim> described_solution(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                       double volume_fraction, const SolvedStates<dim>& states,
+                                       const LoadCases<dim>& cases, const OwnNumbers<dim>& own_numbers) {
   DescribedWheel<dim> wheel{.name = {},
                             .which = {},
                             .grid = solver.model().grid,
                             .volume_fraction = volume_fraction,
                             .mass = mass(solver, volume_fraction),
-                            .outline = outline_measures(psi),
+                            .outline = OutlineMeasures{},
                             .loaded = loaded_wheel(solver, psi, states),
                             .own = own_numbers ? own_numbers(states) : std::vector<OwnNumber>()};
   if (!cases.empty()) wheel.load_case = cases.front().name;
@@ -142,6 +144,28 @@ DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelS
     other.loaded = loaded_wheel(solver, psi, under_load);
     if (own_numbers) other.own = own_numbers(under_load);
     wheel.others.push_back(std::move(other));
+  }
+  return wheel;
+}
+
+template <int dim>
+DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                    double volume_fraction, const SolvedStates<dim>& states,
+                                    const LoadCases<dim>& cases, const OwnNumbers<dim>& own_numbers) {
+  auto wheel = described_solution(solver, psi, volume_fraction, states, cases, own_numbers);
+  wheel.outline = outline_measures(psi);
+  for (DescribedWheel<dim>& other : wheel.others) other.outline = wheel.outline;
+  return wheel;
+}
+
+template <int dim>
+DescribedWheel<dim> with_errors(DescribedWheel<dim> wheel, const KnownFinerWheel<dim>& finer) {
+  wheel.finer = std::make_shared<const KnownFinerWheel<dim>>(finer);
+  for (DescribedWheel<dim>& other : wheel.others) {
+    const auto* same = finer ? under_load_case(finer->wheel, other.load_case) : nullptr;
+    other.finer =
+        same ? std::make_shared<const KnownFinerWheel<dim>>(FinerWheel<dim>{*same, finer->refinement})
+             : wheel.finer;
   }
   return wheel;
 }
@@ -277,7 +301,23 @@ std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel) {
   return all;
 }
 
+template <int dim>
+std::optional<KnownNumber> error_of(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel) {
+  const auto value = known_value(number, wheel);
+  if (!value || !wheel.finer) return {};
+  const KnownFinerWheel<dim>& finer = *wheel.finer;
+  if (!finer) return finer.failure();
+  const auto on_finer = number.value(finer->wheel);
+  if (!on_finer) return {};
+  if (!*on_finer) return "on the finer grid: " + on_finer->failure();
+  if (!std::isfinite(**on_finer)) return std::string("it is not finite on the finer grid");
+  return discretization_error(*value, **on_finer, finer->refinement);
+}
+
 template decltype(described_wheel<2>) described_wheel<2>;
+template decltype(described_solution<2>) described_solution<2>;
+template decltype(with_errors<2>) with_errors<2>;
+template decltype(error_of<2>) error_of<2>;
 template decltype(under_load_case<2>) under_load_case<2>;
 template decltype(outline_measures<2>) outline_measures<2>;
 template decltype(roughness<2>) roughness<2>;
@@ -285,6 +325,9 @@ template decltype(known_value<2>) known_value<2>;
 template decltype(wheel_numbers<2>) wheel_numbers<2>;
 template decltype(numbers_of<2>) numbers_of<2>;
 template decltype(described_wheel<3>) described_wheel<3>;
+template decltype(described_solution<3>) described_solution<3>;
+template decltype(with_errors<3>) with_errors<3>;
+template decltype(error_of<3>) error_of<3>;
 template decltype(under_load_case<3>) under_load_case<3>;
 template decltype(outline_measures<3>) outline_measures<3>;
 template decltype(roughness<3>) roughness<3>;

@@ -40,6 +40,13 @@ struct OwnNumber {
   KnownNumber value;
 };
 
+template <int dim>
+struct FinerWheel;
+
+/// A wheel on a finer grid, or in one line why there is none.
+template <int dim>
+using KnownFinerWheel = Expected<FinerWheel<dim>, std::string>;
+
 /// A wheel in numbers.
 template <int dim>
 struct DescribedWheel {
@@ -53,6 +60,15 @@ struct DescribedWheel {
   std::vector<OwnNumber> own = {};                       ///< of the load case
   std::string load_case = {};               ///< of these numbers; empty: the wheel has only one load
   std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
+  /// For estimates of discretization errors, under the same load; null: none are wanted.
+  std::shared_ptr<const KnownFinerWheel<dim>> finer = {};
+};
+
+/// A wheel on a finer grid, without what is measured on its outline.
+template <int dim>
+struct FinerWheel {
+  DescribedWheel<dim> wheel;
+  double refinement;  ///< the factor by which its cells are smaller
 };
 
 /// States of a shape, or why there are none.
@@ -70,6 +86,17 @@ DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelS
                                     double volume_fraction, const SolvedStates<dim>& states,
                                     const LoadCases<dim>& cases,
                                     const OwnNumbers<dim>& own_numbers = OwnNumbers<dim>());
+
+/// The same without what is measured on the outline, and so without its cost.
+template <int dim>
+DescribedWheel<dim> described_solution(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                       double volume_fraction, const SolvedStates<dim>& states,
+                                       const LoadCases<dim>& cases,
+                                       const OwnNumbers<dim>& own_numbers = OwnNumbers<dim>());
+
+/// The wheel with estimates of its errors by a finer one, under all load cases.
+template <int dim>
+DescribedWheel<dim> with_errors(DescribedWheel<dim> wheel, const KnownFinerWheel<dim>& finer);
 
 /// The wheel under the load case of that name; null if it has none.
 template <int dim>
@@ -108,5 +135,11 @@ std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel);
 /// In SI units, on the whole width; nothing if the wheel has no such number, for whatever reason.
 template <int dim>
 std::optional<double> known_value(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel);
+
+/// The estimate of the discretization error of a known number (quantities/analysis/discretization_error.h),
+/// in its unit: nothing if none is wanted or the finer wheel does not have the number, as for those measured
+/// on the outline; the reason if it could not be computed.
+template <int dim>
+std::optional<KnownNumber> error_of(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel);
 
 }  // namespace wheelwright

@@ -5,12 +5,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <int dim>
-void add_number(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel, Json& json, Json& missing) {
-  const auto value = number.value(wheel);
+/// A number, and why it is missing.
+void add_number(const std::string& key, const std::optional<KnownNumber>& value, Json& json, Json& missing) {
   if (!value) return;
-  json[number.key] = *value ? Json(**value) : Json();
-  if (!*value) missing[number.key] = value->failure();
+  json[key] = *value ? Json(**value) : Json();
+  if (!*value) missing[key] = value->failure();
+}
+
+/// The numbers of a wheel with `errors`, the estimates of their errors, and `missing`, the reasons for nulls;
+/// `missing_errors` has those for errors.
+template <int dim>
+void add_with_errors(const std::vector<WheelNumber<dim>>& numbers, const DescribedWheel<dim>& wheel,
+                     Json& json) {
+  Json missing, errors, missing_errors;
+  for (const WheelNumber<dim>& number : numbers) {
+    add_number(number.key, number.value(wheel), json, missing);
+    add_number(number.key, error_of(number, wheel), errors, missing_errors);
+  }
+  if (!missing.empty()) json["missing"] = std::move(missing);
+  if (!errors.empty()) json["errors"] = std::move(errors);
+  if (!missing_errors.empty()) json["missing_errors"] = std::move(missing_errors);
 }
 
 }  // namespace
@@ -28,18 +42,12 @@ Json shown_numbers(const std::vector<WheelNumber<dim>>& numbers) {
 
 template <int dim>
 void add_numbers(const DescribedWheel<dim>& wheel, Json& json) {
-  Json missing;
-  const auto numbers = numbers_of(wheel);
-  for (const WheelNumber<dim>& number : numbers) add_number(number, wheel, json, missing);
-  if (!missing.empty()) json["missing"] = std::move(missing);
+  auto numbers = numbers_of(wheel);
+  add_with_errors(numbers, wheel, json);
   if (!wheel.load_case.empty()) json["load_case"] = wheel.load_case;
-  for (const DescribedWheel<dim>& other : wheel.others) {
-    Json& of_case = json["load_cases"][other.load_case];
-    Json missing_of_case;
-    for (const WheelNumber<dim>& number : numbers)
-      if (!number.is_of_shape) add_number(number, other, of_case, missing_of_case);
-    if (!missing_of_case.empty()) of_case["missing"] = std::move(missing_of_case);
-  }
+  std::erase_if(numbers, [](const WheelNumber<dim>& number) { return number.is_of_shape; });
+  for (const DescribedWheel<dim>& other : wheel.others)
+    add_with_errors(numbers, other, json["load_cases"][other.load_case]);
 }
 
 template decltype(shown_numbers<2>) shown_numbers<2>;

@@ -13,7 +13,8 @@ nlohmann::ordered_json shown_numbers(const std::vector<WheelNumber<dim>>& number
 
 /// Adds the numbers of a wheel (numbers_of) by their keys, and under `load_cases` those that depend on the
 /// load under every other load case. A number that could not be computed is null; `missing` next to it has
-/// its key with the reason.
+/// its key with the reason. If errors are estimated, `errors` has them by the keys of their numbers, and
+/// `missing_errors` the reasons for those that are null.
 template <int dim>
 void add_numbers(const DescribedWheel<dim>& wheel, nlohmann::ordered_json& json);
 

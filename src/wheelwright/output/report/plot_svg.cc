@@ -40,19 +40,35 @@ struct Interval {
 };
 
 /// The range of the finite values, if it is wider than rounding.
-Interval span_of(const std::vector<PlotCurve>& curves, std::vector<double> PlotCurve::*coordinate) {
+Interval span_of(const std::vector<double>& values) {
   double low = INFINITY, high = -INFINITY;
-  for (const PlotCurve& curve : curves)
-    for (const double value : curve.*coordinate) {
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
   if (low > high) return {0, 1};
   const double size = std::max(std::abs(low), std::abs(high));
   if (high - low > 1e-6 * size) return {low, high};
   const double middle = 0.5 * (low + high), half = size > 0 ? 1e-3 * size : 1;
   return {middle - half, middle + half};
+}
+
+std::vector<double> all_x(const LinePlot& plot) {
+  std::vector<double> all;
+  for (const PlotCurve& curve : plot.curves) all.insert(all.end(), curve.x.begin(), curve.x.end());
+  return all;
+}
+
+/// Of all curves and their bands.
+std::vector<double> all_y(const LinePlot& plot) {
+  std::vector<double> all;
+  for (const PlotCurve& curve : plot.curves) {
+    all.insert(all.end(), curve.y.begin(), curve.y.end());
+    for (size_t i = 0; i < curve.errors.size(); ++i)
+      for (const double side : {-1, 1}) all.push_back(curve.y[i] + side * curve.errors[i]);
+  }
+  return all;
 }
 
 Interval widened(Interval data, double fraction) {
@@ -128,6 +144,20 @@ std::string curve_svg(const PlotCurve& curve, const Scale& x, const Scale& y, st
   return fmt::format("<path class=\"curve\" stroke=\"{}\" d=\"{}\"/>\n{}", colour, path, dots);
 }
 
+/// The band of the errors, behind the line; empty if a value or an error is not finite.
+std::string band_svg(const PlotCurve& curve, const Scale& x, const Scale& y, std::string_view colour) {
+  std::string there, back;
+  for (size_t i = 0; i < curve.errors.size(); ++i) {
+    const double low = y(curve.y[i] - curve.errors[i]), high = y(curve.y[i] + curve.errors[i]);
+    if (!std::isfinite(low) || !std::isfinite(high)) return "";
+    there += fmt::format("{}{:.2f} {:.2f}", i == 0 ? 'M' : 'L', x(curve.x[i]), low);
+    back = fmt::format("L{:.2f} {:.2f}", x(curve.x[i]), high) + back;
+  }
+  if (there.empty()) return "";
+  return fmt::format("<path class=\"band\" fill=\"{}\" fill-opacity=\"0.2\" d=\"{}{}Z\"/>\n", colour, there,
+                     back);
+}
+
 std::string legend_entry(const std::string& label, size_t index, std::string_view colour) {
   const double x = left + frame_width + 18, y = top + 12 + legend_line * static_cast<double>(index);
   return fmt::format("<path class=\"curve\" stroke=\"{}\" d=\"M{} {}h22\"/>\n", colour, x, y) +
@@ -147,8 +177,7 @@ std::vector<double> axis_ticks(double low, double high, int most) {
 std::string plot_svg(const LinePlot& plot) {
   const size_t n = plot.curves.size();
   const double picture_width = left + frame_width + (n > 1 ? legend_width : right);
-  const Interval x_range = span_of(plot.curves, &PlotCurve::x),
-                 y_range = widened(span_of(plot.curves, &PlotCurve::y), 0.05);
+  const Interval x_range = span_of(all_x(plot)), y_range = widened(span_of(all_y(plot)), 0.05);
   const Scale x{x_range.low, x_range.high, left, left + frame_width};
   const Scale y{y_range.low, y_range.high, top + frame_height, top};
 
@@ -162,6 +191,7 @@ std::string plot_svg(const LinePlot& plot) {
   svg += axes(plot, x, y);
   for (size_t i = 0; i < n; ++i) {
     const std::string colour = curve_colour(i, n);
+    svg += band_svg(plot.curves[i], x, y, colour);
     svg += curve_svg(plot.curves[i], x, y, colour);
     if (n > 1) svg += legend_entry(plot.curves[i].label, i, colour);
   }

@@ -15,6 +15,7 @@ struct PlotAxis {
 struct PlotCurve {
   std::string label;  ///< in the legend
   std::vector<double> x, y;
+  std::vector<double> errors = {};  ///< of y, drawn as a band around the line; empty: none
 };
 
 struct LinePlot {
@@ -23,8 +24,8 @@ struct LinePlot {
   std::vector<PlotCurve> curves;  ///< several get a legend
 };
 
-/// The plot as an SVG document, whatever the locale. Axes span the data and need not start at zero; data that
-/// vary by less than 1e-6 of their size are drawn as constant.
+/// The plot as an SVG document, whatever the locale. Axes span the data with their errors and need not start
+/// at zero; data that vary by less than 1e-6 of their size are drawn as constant.
 std::string plot_svg(const LinePlot& plot);
 
 /// The multiples in [low, high] of the smallest step that divides it into at most `most` parts and is 1, 2 or

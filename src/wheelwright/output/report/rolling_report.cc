@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/output/report/value_with_error.h"
+#include "wheelwright/quantities/analysis/discretization_error.h"
 
 namespace wheelwright {
 namespace {
@@ -22,7 +26,105 @@ struct ShownQuantity {
   std::string name;
   ShownUnit shown;
   Expected<RollingVariation> variation;
+  std::optional<RollingVariation> errors;  ///< of the numbers of the variation
 };
+
+/// A number of every load position; nothing where it could not be computed.
+struct PositionNumber {
+  const char* key;
+  std::function<std::optional<double>(const RollingAnalysis&, size_t position)> value;
+};
+
+PositionNumber of_contact(const char* key, double ContactSummary::*member, double factor = 1) {
+  return {key, [=](const RollingAnalysis& a, size_t i) { return a.positions[i].*member * factor; }};
+}
+
+PositionNumber of_position(const char* key, std::vector<double> RollingAnalysis::*values) {
+  return {key, [=](const RollingAnalysis& a, size_t i) { return (a.*values)[i]; }};
+}
+
+PositionNumber of_curve(const char* key, Expected<std::vector<double>> RollingAnalysis::*curve,
+                        double factor) {
+  return {key, [=](const RollingAnalysis& a, size_t i) {
+            const auto& values = a.*curve;
+            return values ? std::optional((*values)[i] * factor) : std::nullopt;
+          }};
+}
+
+/// In the order of JSON.
+std::vector<PositionNumber> position_numbers(const RollingReport& report) {
+  const double width = forces(report);
+  return {of_contact("radial_force_N", &ContactSummary::radial_force, width),
+          of_contact("travel_m", &ContactSummary::travel),
+          {"stiffness_N_per_m",
+           [=](const RollingAnalysis& a, size_t i) {
+             return a.positions[i].radial_force * width / a.positions[i].travel;
+           }},
+          of_contact("peak_pressure_Pa", &ContactSummary::peak_pressure),
+          of_contact("patch_length_m", &ContactSummary::patch_length),
+          of_contact("patch_extent_m", &ContactSummary::patch_extent),
+          of_contact("friction_force_N", &ContactSummary::friction_force, width),
+          of_contact("peak_friction_Pa", &ContactSummary::peak_friction),
+          of_contact("travel_along_ground_m", &ContactSummary::travel_along_ground),
+          of_contact("wind_up_rad", &ContactSummary::wind_up),
+          of_position("peak_von_mises_Pa", &RollingAnalysis::peak_von_mises),
+          of_position("peak_strain", &RollingAnalysis::peak_strain),
+          of_position(report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
+                      &RollingAnalysis::strain_energy),
+          of_curve("travel_at_load_m", &RollingAnalysis::travel_at_load, 1),
+          of_curve("force_at_travel_N", &RollingAnalysis::force_at_travel, width)};
+}
+
+const FinerReport* finer(const RollingReport& report) {
+  return report.finer && *report.finer ? &**report.finer : nullptr;
+}
+
+/// The values of a number at all positions; empty if it could not be computed at one of them.
+std::vector<double> values_of(const PositionNumber& number, const RollingAnalysis& analysis) {
+  std::vector<double> values;
+  for (size_t i = 0; i < analysis.positions.size(); ++i) {
+    const auto value = number.value(analysis, i);
+    if (!value) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+/// The errors of a number at all positions; empty if they are not known.
+std::vector<double> errors_of(const PositionNumber& number, const RollingReport& report) {
+  if (!finer(report)) return {};
+  const auto values = values_of(number, report.analysis),
+             on_finer = values_of(number, finer(report)->analysis);
+  if (values.empty() || on_finer.empty()) return {};
+  return discretization_errors(values, on_finer, finer(report)->refinement);
+}
+
+PositionNumber position_number(const RollingReport& report, std::string_view key) {
+  const auto numbers = position_numbers(report);
+  return *std::ranges::find_if(numbers, [&](const PositionNumber& one) { return one.key == key; });
+}
+
+/// NaN if it is not known.
+double largest_error(const char* key, const RollingReport& report) {
+  const auto errors = errors_of(position_number(report, key), report);
+  return errors.empty() ? NAN : std::ranges::max(errors);
+}
+
+/// Of the difference of the two extremes.
+double peak_to_peak_error(const RollingVariation& errors) { return errors.minimum + errors.maximum; }
+
+/// Of every number of a variation.
+RollingVariation variation_errors(const RollingVariation& of, const RollingVariation& on_finer,
+                                  double refinement) {
+  const auto error = [&](double a, double b) { return discretization_error(a, b, refinement); };
+  RollingVariation errors{error(of.mean, on_finer.mean),
+                          error(of.minimum, on_finer.minimum),
+                          error(of.maximum, on_finer.maximum),
+                          {}};
+  for (size_t k = 0; k < of.harmonics.size(); ++k)
+    errors.harmonics.push_back(error(of.harmonics[k], on_finer.harmonics[k]));
+  return errors;
+}
 
 Expected<RollingVariation> variation(const Expected<std::vector<double>>& values) {
   if (!values) return values.failure();
@@ -47,13 +149,24 @@ RollingVariation travel_variation(const std::vector<ContactSummary>& positions) 
   return rolling_variation(descent);
 }
 
-std::vector<ShownQuantity> quantities(const RollingReport& report) {
-  const RollingAnalysis& a = report.analysis;
+std::vector<ShownQuantity> quantities_of(const RollingReport& report, const RollingAnalysis& a) {
   const auto in = [&](UnitKind kind) { return shown_unit(kind, report.dimension, report.width); };
-  return {
-      {"rim travel at fixed load", in(UnitKind::length), variation(a.travel_at_load)},
-      {"radial force at fixed travel", in(UnitKind::force), variation(a.force_at_travel)},
-      {"peak of the contact pressure", in(UnitKind::stress), rolling_variation(peak_pressures(a.positions))}};
+  return {{"rim travel at fixed load", in(UnitKind::length), variation(a.travel_at_load), {}},
+          {"radial force at fixed travel", in(UnitKind::force), variation(a.force_at_travel), {}},
+          {"peak of the contact pressure",
+           in(UnitKind::stress),
+           rolling_variation(peak_pressures(a.positions)),
+           {}}};
+}
+
+std::vector<ShownQuantity> quantities(const RollingReport& report) {
+  auto all = quantities_of(report, report.analysis);
+  if (!finer(report)) return all;
+  const auto on_finer = quantities_of(report, finer(report)->analysis);
+  for (size_t k = 0; k < all.size(); ++k)
+    if (all[k].variation && on_finer[k].variation)
+      all[k].errors = variation_errors(*all[k].variation, *on_finer[k].variation, finer(report)->refinement);
+  return all;
 }
 
 std::string load_text(const RollingReport& report) {
@@ -69,6 +182,20 @@ std::string cell(const Expected<std::vector<double>>& values, size_t i, double f
   constexpr int width = 13;
   return values ? fmt::format("{:{}.{}f}", (*values)[i] * factor, width, digits)
                 : fmt::format("{:>{}}", "-", width);
+}
+
+/// The largest errors of the columns of the positions; empty if they are not known.
+std::string largest_errors_line(const RollingReport& report) {
+  if (!finer(report)) return "";
+  const auto error = [&](const char* key, double factor, int width) {
+    const double value = largest_error(key, report) * factor;
+    return std::isfinite(value) ? fmt::format("{:>{}.2g}", value, width) : fmt::format("{:>{}}", "-", width);
+  };
+  return fmt::format("{:>9}{}{}{}{}{}{}{}\n", "+- up to", error("stiffness_N_per_m", N_per_mm, 11),
+                     error("peak_pressure_Pa", MPa, 11), error("patch_length_m", mm, 9),
+                     error("peak_von_mises_Pa", MPa, 11),
+                     error(report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J", 1, 11),
+                     error("travel_at_load_m", mm, 13), error("force_at_travel_N", 1, 13));
 }
 
 std::string position_lines(const RollingReport& report) {
@@ -90,7 +217,7 @@ std::string position_lines(const RollingReport& report) {
                          a.peak_von_mises[i] * MPa, a.strain_energy[i], cell(a.travel_at_load, i, mm, 6),
                          cell(a.force_at_travel, i, forces(report), 2));
   }
-  return table;
+  return table + largest_errors_line(report);
 }
 
 /// Whether there are forces along the ground or torques.
@@ -127,6 +254,13 @@ std::string gap_lines(const RollingReport& report) {
   return table;
 }
 
+std::string variation_errors_line(const RollingVariation& errors, double factor, size_t n_harmonics) {
+  std::string line = fmt::format("{:>36}{:>11.2g}{:>11.2g}{:>15}", "+-", errors.mean * factor,
+                                 peak_to_peak_error(errors) * factor, "");
+  for (size_t k = 0; k < n_harmonics; ++k) line += fmt::format("{:>11.2g}", errors.harmonics[k] * factor);
+  return line + '\n';
+}
+
 std::string variation_lines(const RollingReport& report) {
   std::string waves;
   const auto all = quantities(report);
@@ -143,12 +277,15 @@ std::string variation_lines(const RollingReport& report) {
                          100 * v.peak_to_peak() / v.mean);
     for (size_t k = 0; k < shown; ++k) table += fmt::format("{:>11.3g}", v.harmonics[k] * q.shown.factor);
     table += '\n';
+    if (q.errors) table += variation_errors_line(*q.errors, q.shown.factor, shown);
   }
   return table;
 }
 
 std::string missing_lines(const RollingReport& report) {
   std::string lines;
+  if (report.finer && !*report.finer)
+    lines += fmt::format("errors are not estimated: {}\n", report.finer->failure());
   for (const ShownQuantity& q : quantities(report))
     if (!q.variation)
       lines += fmt::format("not computed: {}: {}\n", q.name, to_string(q.variation.failure()));
@@ -159,39 +296,57 @@ std::string missing_lines(const RollingReport& report) {
   return lines;
 }
 
+double largest_stress(const RollingAnalysis& analysis) { return std::ranges::max(analysis.peak_von_mises); }
+
+/// On the finer grid the largest stress may be elsewhere.
+double stress_error(const RollingReport& report) {
+  return discretization_error(largest_stress(report.analysis), largest_stress(finer(report)->analysis),
+                              finer(report)->refinement);
+}
+
 std::string stress_line(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   return fmt::format(
-      "largest von Mises stress {:.4g} MPa at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at "
-      "{:.2f} "
+      "largest von Mises stress {} MPa at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at {:.2f} "
       "deg\n",
-      a.peak_von_mises[a.most_stressed] * MPa, a.peak_radius * mm, a.peak_azimuth * degree,
-      a.azimuths[a.most_stressed] * degree);
+      finer(report) ? text_with_error(largest_stress(a) * MPa, stress_error(report) * MPa)
+                    : fmt::format("{:.4g}", largest_stress(a) * MPa),
+      a.peak_radius * mm, a.peak_azimuth * degree, a.azimuths[a.most_stressed] * degree);
+}
+
+double mean_travel_under(const RollingReport& report, size_t load) {
+  return travel_variation(*report.under_loads[load]).mean;
+}
+
+std::optional<double> mean_travel_error(const RollingReport& report, size_t load) {
+  if (!finer(report) || !finer(report)->under_loads[load]) return {};
+  return discretization_error(mean_travel_under(report, load),
+                              travel_variation(*finer(report)->under_loads[load]).mean,
+                              finer(report)->refinement);
 }
 
 std::string load_lines(const RollingReport& report) {
+  constexpr const char* words = "{:>11}{:>12}{:>12}{:>12}{:>12}{:>12}\n";
+  const char* error = finer(report) ? "+-" : "";
   std::string table =
-      fmt::format("{:>11}{:>12}{:>12}{:>12}{:>12}\n{:>11}{:>12}{:>12}{:>12}{:>12}\n", "load", "mean travel",
-                  "minimum", "maximum", "stiffness", "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]");
+      fmt::format(words, "load", "mean travel", "minimum", "maximum", "stiffness", error) +
+      fmt::format(words, "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]", finer(report) ? "[N/mm]" : "");
   for (size_t k = 0; k < report.loads.size(); ++k) {
     if (!report.under_loads[k]) continue;
     const RollingVariation travel = travel_variation(*report.under_loads[k]);
-    const double load = report.loads[k] * forces(report);
-    table += fmt::format("{:11.2f}{:12.6f}{:12.6f}{:12.6f}{:12.2f}\n", load, travel.mean * mm,
-                         travel.minimum * mm, travel.maximum * mm, load / travel.mean * N_per_mm);
+    const double load = report.loads[k] * forces(report), stiffness = load / travel.mean * N_per_mm;
+    table += fmt::format("{:11.2f}{:12.6f}{:12.6f}{:12.6f}{:12.2f}", load, travel.mean * mm,
+                         travel.minimum * mm, travel.maximum * mm, stiffness);
+    if (const auto of_travel = mean_travel_error(report, k))
+      table += fmt::format("{:12.2g}", stiffness * *of_travel / travel.mean);
+    table += '\n';
   }
   return table;
 }
 
 using Json = nlohmann::ordered_json;
 
-Json value_json(const Expected<std::vector<double>>& values, size_t i, double factor) {
-  return values ? Json((*values)[i] * factor) : Json();
-}
-
-Json variation_json(const Expected<RollingVariation>& variation, double factor, int n_sectors) {
-  if (!variation) return {};
-  const RollingVariation& v = *variation;
+Json variation_json(const RollingVariation& v, double factor, int n_sectors) {
   Json harmonics = Json::array();
   for (size_t k = 0; k < v.harmonics.size(); ++k)
     harmonics.push_back(
@@ -203,28 +358,26 @@ Json variation_json(const Expected<RollingVariation>& variation, double factor, 
           {"harmonics", harmonics}};
 }
 
+Json variation_json(const ShownQuantity& q, double factor, int n_sectors) {
+  if (!q.variation) return {};
+  Json json = variation_json(*q.variation, factor, n_sectors);
+  if (!q.errors) return json;
+  json["errors"] = variation_json(*q.errors, factor, n_sectors);
+  json["errors"]["peak_to_peak"] = peak_to_peak_error(*q.errors) * factor;
+  return json;
+}
+
 Json positions_json(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   Json positions = Json::array();
-  for (size_t i = 0; i < a.positions.size(); ++i) {
-    const ContactSummary& p = a.positions[i];
-    positions.push_back(
-        {{"azimuth_rad", a.azimuths[i]},
-         {"radial_force_N", p.radial_force * forces(report)},
-         {"travel_m", p.travel},
-         {"stiffness_N_per_m", p.radial_force * forces(report) / p.travel},
-         {"peak_pressure_Pa", p.peak_pressure},
-         {"patch_length_m", p.patch_length},
-         {"patch_extent_m", p.patch_extent},
-         {"friction_force_N", p.friction_force * forces(report)},
-         {"peak_friction_Pa", p.peak_friction},
-         {"travel_along_ground_m", p.travel_along_ground},
-         {"wind_up_rad", p.wind_up},
-         {"peak_von_mises_Pa", a.peak_von_mises[i]},
-         {"peak_strain", a.peak_strain[i]},
-         {report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J", a.strain_energy[i]},
-         {"travel_at_load_m", value_json(a.travel_at_load, i, 1)},
-         {"force_at_travel_N", value_json(a.force_at_travel, i, forces(report))}});
+  for (const double azimuth : a.azimuths) positions.push_back({{"azimuth_rad", azimuth}});
+  for (const PositionNumber& number : position_numbers(report)) {
+    const auto errors = errors_of(number, report);
+    for (size_t i = 0; i < a.positions.size(); ++i) {
+      const auto value = number.value(a, i);
+      positions[i][number.key] = value ? Json(*value) : Json();
+      if (!errors.empty()) positions[i]["errors"][number.key] = errors[i];
+    }
   }
   return positions;
 }
@@ -243,25 +396,44 @@ Json loads_json(const RollingReport& report) {
                            {"peak_pressure_Pa", p.peak_pressure},
                            {"patch_length_m", p.patch_length},
                            {"patch_extent_m", p.patch_extent}});
-    const double mean_travel = travel_variation(*report.under_loads[k]).mean;
+    const double mean_travel = mean_travel_under(report, k);
     loads.push_back({{"load_N", load},
                      {"mean_travel_m", mean_travel},
                      {"stiffness_N_per_m", load / mean_travel},
                      {"positions", positions}});
+    if (const auto error = mean_travel_error(report, k))
+      loads.back()["errors"] = {{"mean_travel_m", *error},
+                                {"stiffness_N_per_m", load / mean_travel * *error / mean_travel}};
   }
   return loads;
 }
 
+/// The grid, and value, error and reason of each number by its key.
+Json accuracy_json(const AccurateNumbers& numbers) {
+  Json json{{"accuracy", numbers.accuracy}, {"grid", numbers.grid}};
+  for (const AccurateNumber& number : numbers.numbers) {
+    auto& of = json["numbers"][number.key];
+    of["value"] = number.value;
+    of["error"] = number.error ? Json(*number.error) : Json();
+    if (!number.reason.empty()) of["not_accurate"] = number.reason;
+  }
+  return json;
+}
+
 /// One value per position over the angle, with the first repeated a sector later.
-LinePlot sector_plot(const RollingReport& report, const std::string& title, PlotAxis axis,
-                     const std::vector<double>& values, double factor) {
+LinePlot sector_plot(const RollingReport& report, const std::string& title, PlotAxis axis, const char* key,
+                     double factor) {
+  const PositionNumber number = position_number(report, key);
+  const auto values = values_of(number, report.analysis), errors = errors_of(number, report);
   PlotCurve curve;
   for (size_t i = 0; i < values.size(); ++i) {
     curve.x.push_back(report.analysis.azimuths[i] * degree);
     curve.y.push_back(values[i] * factor);
+    if (!errors.empty()) curve.errors.push_back(errors[i] * factor);
   }
   curve.x.push_back(curve.x.front() + 360.0 / report.n_sectors);
   curve.y.push_back(curve.y.front());
+  if (!errors.empty()) curve.errors.push_back(curve.errors.front());
   return {title, {"azimuth of the contact", "deg"}, std::move(axis), {std::move(curve)}};
 }
 
@@ -274,6 +446,7 @@ std::string rolling_table(const RollingReport& report) {
   table += variation_lines(report) + '\n' + stress_line(report);
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
+  if (report.accurate) table += '\n' + accuracy_table(*report.accurate);
   return table;
 }
 
@@ -281,7 +454,7 @@ std::string rolling_json(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   const auto all = quantities(report);
   const auto variation = [&](const ShownQuantity& q, double factor) {
-    return variation_json(q.variation, factor, report.n_sectors);
+    return variation_json(q, factor, report.n_sectors);
   };
   Json json{{"title", report.title},
             {"width_m", report.width},
@@ -297,25 +470,28 @@ std::string rolling_json(const RollingReport& report) {
             {"travel_at_load_m", variation(all[0], 1)},
             {"force_at_travel_N", variation(all[1], forces(report))},
             {"peak_pressure_Pa", variation(all[2], 1)}};
+  if (finer(report)) json["peak_von_mises"]["error_Pa"] = stress_error(report);
+  if (report.finer && !*report.finer) json["missing_errors"] = report.finer->failure();
   if (!a.travel_at_load) json["missing"]["travel_at_load_m"] = to_string(a.travel_at_load.failure());
   if (!a.force_at_travel) json["missing"]["force_at_travel_N"] = to_string(a.force_at_travel.failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
+  if (report.accurate) json["accuracy"] = accuracy_json(*report.accurate);
   return json.dump(2) + '\n';
 }
 
 LinePlot travel_plot(const RollingReport& report) {
   return sector_plot(report, "Rim travel under " + load_text(report), {"rim travel", "mm"},
-                     *report.analysis.travel_at_load, mm);
+                     "travel_at_load_m", mm);
 }
 
 LinePlot force_plot(const RollingReport& report) {
   return sector_plot(report, "Radial force at a rim travel of " + travel_text(report), {"radial force", "N"},
-                     *report.analysis.force_at_travel, forces(report));
+                     "force_at_travel_N", 1);
 }
 
 LinePlot peak_pressure_plot(const RollingReport& report) {
-  return sector_plot(report, "Peak of the contact pressure", {"peak pressure", "MPa"},
-                     peak_pressures(report.analysis.positions), MPa);
+  return sector_plot(report, "Peak of the contact pressure", {"peak pressure", "MPa"}, "peak_pressure_Pa",
+                     MPa);
 }
 
 LinePlot load_plot(const RollingReport& report) {

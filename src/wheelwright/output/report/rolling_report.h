@@ -1,12 +1,21 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "wheelwright/output/report/accurate_numbers.h"
 #include "wheelwright/output/report/plot_svg.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 
 namespace wheelwright {
+
+/// The same analysis on a finer grid, for estimates of the errors.
+struct FinerReport {
+  RollingAnalysis analysis;
+  std::vector<Expected<std::vector<ContactSummary>>> under_loads;
+  double refinement;  ///< the factor by which its cells are smaller
+};
 
 /// The analysis of one shape. Forces are shown on the whole width.
 struct RollingReport {
@@ -17,18 +26,24 @@ struct RollingReport {
   std::vector<double> loads;  ///< as in the analysis, ascending; empty: none were requested
   std::vector<Expected<std::vector<ContactSummary>>> under_loads;  ///< [load][position]
   int dimension = 2;                                               ///< of the analysis
+  /// Nothing: no errors are wanted; the reason if they cannot be estimated.
+  std::optional<Expected<FinerReport, std::string>> finer = {};
+  std::optional<AccurateNumbers> accurate = {};  ///< if an accuracy was wanted
 };
 
 /// For display: one line per load position, another one if there is friction or torque, variations in
-/// rolling, one line per load, and what could not be computed and why.
+/// rolling, one line per load, and what could not be computed and why. A line below the positions has the
+/// largest error of each column, and one below each variation its errors. Last, the accuracy_table().
 std::string rolling_table(const RollingReport& report);
 
 /// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double;
-/// missing numbers are null, and `missing` has their names with the reason.
+/// missing numbers are null, and `missing` has their names with the reason. `errors` beside numbers has the
+/// estimates of their errors; `missing_errors` says why there are none.
 std::string rolling_json(const RollingReport& report);
 
 /// One turn of the wheel by one sector, closed: travel of the rim at fixed load, force of the ground at fixed
-/// travel, and the peak of the contact pressure. Must not be called if the values could not be computed.
+/// travel, and the peak of the contact pressure, with bands of their errors. Must not be called if the values
+/// could not be computed.
 LinePlot travel_plot(const RollingReport& report);
 LinePlot force_plot(const RollingReport& report);
 LinePlot peak_pressure_plot(const RollingReport& report);

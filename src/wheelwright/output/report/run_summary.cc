@@ -36,6 +36,10 @@ Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized)
   json[objective] = shape.objective ? Json(*shape.objective) : Json();
   add_numbers(shape.wheel, json);
   if (!shape.objective) json["missing"][objective] = shape.objective.failure();
+  if (const auto& error = shape.objective_error) {
+    json["errors"][objective] = *error ? Json(**error) : Json();
+    if (!*error) json["missing_errors"][objective] = error->failure();
+  }
   if (shape.wheel.loaded) add_details(*shape.wheel.loaded, json);
   if (const auto rough = roughness(shape.wheel)) {
     const Vec<2>& place = rough->edge.sharpest.place;
@@ -60,10 +64,15 @@ std::vector<ComparedRow> rows(const RunSummary<dim>& summary) {
   const auto shown = [&](const KnownNumber& value) -> std::optional<KnownNumber> {
     return value ? KnownNumber(*value * summary.objective.factor) : value;
   };
+  const auto shown_error = [&](const SummarizedShape<dim>& shape) -> std::optional<double> {
+    const auto& error = shape.objective_error;
+    return error && *error ? std::optional(**error * summary.objective.factor) : std::nullopt;
+  };
   std::vector<ComparedRow> result{{summary.minimized.empty()
                                        ? fmt::format("objective [{}]", unit<dim>(UnitKind::energy))
                                        : "objective: " + summary.minimized,
-                                   {shown(summary.before.objective), shown(summary.after.objective)}}};
+                                   {shown(summary.before.objective), shown(summary.after.objective)},
+                                   {shown_error(summary.before), shown_error(summary.after)}}};
   for (ComparedRow& row : compared_rows<dim>({&summary.before.wheel, &summary.after.wheel}))
     result.push_back(std::move(row));
   return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct SummarizedShape {
   int iteration;          ///< 0: the initial shape
   KnownNumber objective;  ///< sum over the load positions of a sector
   DescribedWheel<dim> wheel;
+  /// The estimate of the objective's discretization error, or why there is none; nothing: not wanted.
+  std::optional<KnownNumber> objective_error = {};
 };
 
 /// A bound on a quantity, at the last shape. In SI units; in 2D forces, energies, masses and stiffnesses per

@@ -10,12 +10,17 @@ namespace {
 
 constexpr int gauss_points = 4;
 
-template <int dim>
-double cell_measure(const CellMap<dim>& map, int degree, const std::vector<ReferencePoint<dim>>& points) {
+template <int degree, int dim>
+double cell_measure(const CellMap<dim>& map, const std::vector<ReferencePoint<dim>>& points) {
   double sum = 0;
   for (const auto& point : points)
     sum += point.weight * determinant<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi)));
   return sum;
+}
+
+template <int dim>
+double cell_measure(const CellMap<dim>& map, int degree, const std::vector<ReferencePoint<dim>>& points) {
+  return degree == 1 ? cell_measure<1>(map, points) : cell_measure<2>(map, points);
 }
 
 }  // namespace
@@ -30,10 +35,10 @@ double material_measure(const LevelSet<dim>& psi) {
 template <int dim>
 double material_measure(const CutDomain<dim>& domain, int map_degree) {
   const PolarGrid<dim>& grid = domain.grid;
+  const auto whole_cell = unit_cell_rule<dim>(gauss_points);
   std::vector<double> full_cell(grid.cells[0]);
   for (int radial = 0; radial < grid.cells[0]; ++radial)
-    full_cell[radial] = cell_measure<dim>(CellMap<dim>(grid, map_degree, {radial}), map_degree,
-                                          unit_cell_rule<dim>(gauss_points));
+    full_cell[radial] = cell_measure<dim>(CellMap<dim>(grid, map_degree, {radial}), map_degree, whole_cell);
   double sum = 0;
   for (int cell = 0; cell < grid.n_cells(); ++cell)
     if (domain.kinds[cell] == CellKind::inside) sum += full_cell[grid.cell_position(cell)[0]];

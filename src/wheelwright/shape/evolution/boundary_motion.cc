@@ -54,6 +54,8 @@ template <int dim>
 typename BoundaryMotion<dim>::Boundary BoundaryMotion<dim>::boundary_of(
     const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points) {
   Boundary result;
+  result.places.reserve(points.size());
+  result.dependences.reserve(power(4, dim) * points.size());
   for (const auto& point : points) {
     const std::size_t first = result.dependences.size();
     add_dependences<dim>(psi.lattice, psi.lattice.grid().cell_position(point.cell), point.xi, 1,

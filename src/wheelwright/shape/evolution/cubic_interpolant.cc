@@ -20,8 +20,9 @@ typename CubicInterpolant<dim>::AxisBasis CubicInterpolant<dim>::axis_basis(int 
   if (axis != 1) first = std::clamp(first, 0, n_nodes - n);
   const double t = coordinate - first;
   AxisBasis basis{};
-  for (int a = 0; a < n; ++a) {
-    const int node = axis == 1 ? ((first + a) % n_nodes + n_nodes) % n_nodes : first + a;
+  int node = axis == 1 ? (first % n_nodes + n_nodes) % n_nodes : first;
+  for (int a = 0; a < n; ++a, ++node) {
+    if (axis == 1 && node == n_nodes) node = 0;
     basis.offset[a] = node * strides_[axis];
     double value = 1, derivative = 0, second = 0;
     for (int b = 0; b < n; ++b) {

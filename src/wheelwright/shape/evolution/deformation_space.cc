@@ -20,8 +20,17 @@ std::vector<double> DeformationSpace<dim>::representative(std::span<const double
 
 template <int dim>
 std::vector<double> DeformationSpace<dim>::load(std::span<const double> deformation) const {
-  return by_component(deformation,
-                      [&](const auto& part) { return symmetric_product(form_, restricted(part)); });
+  const std::size_t n_nodes = fixed_.size();
+  const int n = n_components();
+  std::vector<Vec<dim>> at_node(n_nodes);  // all components, so that the form is read once
+  for (int k = 0; k < n; ++k)
+    for (std::size_t node = 0; node < n_nodes; ++node)
+      at_node[node][k] = fixed_[node] ? 0 : deformation[k * n_nodes + node];
+  const auto product = symmetric_product<dim>(form_, at_node);
+  std::vector<double> result(n * n_nodes);
+  for (int k = 0; k < n; ++k)
+    for (std::size_t node = 0; node < n_nodes; ++node) result[k * n_nodes + node] = product[node][k];
+  return result;
 }
 
 template <int dim>

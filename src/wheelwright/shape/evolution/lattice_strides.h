@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "wheelwright/shape/geometry/polar_grid.h"
 
 namespace wheelwright {
@@ -14,6 +16,22 @@ std::array<int, dim> lattice_strides(const Lattice<dim>& lattice) {
     strides[axis] = lattice.node_index(next);
   }
   return strides;
+}
+
+/// The first node of every line of nodes along an axis.
+template <int dim>
+std::vector<int> first_nodes(const Lattice<dim>& lattice, int axis) {
+  std::vector<int> result;
+  std::array<int, dim> end = lattice.nodes(), p{};
+  end[axis] = 1;
+  // In the order of the nodes: the azimuth varies slowest.
+  for (p[1] = 0; p[1] < end[1]; ++p[1])
+    for (int axial = 0; axial < (dim == 3 ? end[dim - 1] : 1); ++axial)
+      for (p[0] = 0; p[0] < end[0]; ++p[0]) {
+        if constexpr (dim == 3) p[2] = axial;
+        result.push_back(lattice.node_index(p));
+      }
+  return result;
 }
 
 }  // namespace wheelwright

@@ -118,9 +118,11 @@ std::vector<SparseSpd::Entry> with_fixed_nodes(std::span<const SparseSpd::Entry>
   return result;
 }
 
-std::vector<double> symmetric_product(std::span<const SparseSpd::Entry> lower_triangle,
-                                      std::span<const double> x) {
-  std::vector<double> result(x.size());
+namespace {
+
+template <class Value>
+std::vector<Value> product_of(std::span<const SparseSpd::Entry> lower_triangle, std::span<const Value> x) {
+  std::vector<Value> result(x.size());
   for (const auto& entry : lower_triangle) {
     result[entry.row] += entry.value * x[entry.column];
     if (entry.row != entry.column) result[entry.column] += entry.value * x[entry.row];
@@ -128,7 +130,22 @@ std::vector<double> symmetric_product(std::span<const SparseSpd::Entry> lower_tr
   return result;
 }
 
+}  // namespace
+
+std::vector<double> symmetric_product(std::span<const SparseSpd::Entry> lower_triangle,
+                                      std::span<const double> x) {
+  return product_of(lower_triangle, x);
+}
+
+template <int dim>
+std::vector<Vec<dim>> symmetric_product(std::span<const SparseSpd::Entry> lower_triangle,
+                                        std::span<const Vec<dim>> x) {
+  return product_of(lower_triangle, x);
+}
+
 template decltype(node_weights<2>) node_weights<2>;
+template std::vector<Vec<2>> symmetric_product<2>(std::span<const SparseSpd::Entry>, std::span<const Vec<2>>);
+template std::vector<Vec<3>> symmetric_product<3>(std::span<const SparseSpd::Entry>, std::span<const Vec<3>>);
 template decltype(node_weights<3>) node_weights<3>;
 template decltype(boundary_integral<2>) boundary_integral<2>;
 template decltype(boundary_integral<3>) boundary_integral<3>;

@@ -52,4 +52,9 @@ std::vector<SparseSpd::Entry> with_fixed_nodes(std::span<const SparseSpd::Entry>
 std::vector<double> symmetric_product(std::span<const SparseSpd::Entry> lower_triangle,
                                       std::span<const double> x);
 
+/// The same for each component of x.
+template <int dim>
+std::vector<Vec<dim>> symmetric_product(std::span<const SparseSpd::Entry> lower_triangle,
+                                        std::span<const Vec<dim>> x);
+
 }  // namespace wheelwright

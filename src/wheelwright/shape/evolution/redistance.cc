@@ -29,9 +29,12 @@ std::vector<Vec<dim>> closest_points(const LevelSet<dim>& psi) {
   std::vector<Vec<dim>> positions, result;
   for (const auto& seed : seeds) positions.push_back(cartesian_position<dim>(lattice, seed));
   const NearestPoint<dim> nearest_seed(std::move(positions));
+  result.reserve(lattice.n_nodes());
+  int nearest = 0;  // to the node before, too, if that is a neighbour
   for (int n = 0; n < lattice.n_nodes(); ++n) {
     const Vec<dim> node = point_of(lattice, n);
-    const Vec<dim> seed = seeds[nearest_seed.index_of_nearest(cartesian_position<dim>(lattice, node))];
+    nearest = nearest_seed.index_of_nearest(cartesian_position<dim>(lattice, node), nearest);
+    const Vec<dim> seed = seeds[nearest];
     result.push_back(closest_zero<dim>(interpolant, node, seed).value_or(seed));
   }
   return result;

@@ -28,16 +28,17 @@ struct Line {
 std::vector<double> periodic_coefficients(const Line& value) {
   constexpr int reach = 27;  // pole^27 = 4e-16
   const double pole = std::sqrt(3.0) - 2;
-  std::vector<double> around, result;
-  for (int i = -reach; i < value.size() + reach; ++i) around.push_back(value(i));
-  for (int i = reach; i < value.size() + reach; ++i) {
-    double sum = around[i], weight = 1;
-    for (int k = 1; k <= reach; ++k) {
-      weight *= pole;
-      sum += weight * (around[i + k] + around[i - k]);
-    }
-    result.push_back(std::sqrt(3.0) * sum);
+  const int n = value.size();
+  std::vector<double> around, result(value.value);
+  around.reserve(n + 2 * reach);
+  for (int i = -reach; i < n + reach; ++i) around.push_back(value(i));
+  const double* middle = around.data() + reach;
+  double weight = 1;
+  for (int k = 1; k <= reach; ++k) {
+    weight *= pole;
+    for (int i = 0; i < n; ++i) result[i] += weight * (middle[i + k] + middle[i - k]);
   }
+  for (double& sum : result) sum *= std::sqrt(3.0);
   return result;
 }
 
@@ -61,9 +62,9 @@ LevelSet<dim> by_lines(LevelSet<dim> psi, Function function) {
   const auto& lattice = psi.lattice;
   for (int axis = 0; axis < dim; ++axis) {
     const int stride = lattice_strides(lattice)[axis], n = lattice.nodes()[axis];
-    for (int first = 0; first < lattice.n_nodes(); ++first) {
-      if (lattice.node_position(first)[axis] != 0) continue;
+    for (const int first : first_nodes(lattice, axis)) {
       Line vertices{{}, axis == 1};
+      vertices.value.reserve(n);
       for (int i = 0; i < n; i += lattice.degree()) vertices.value.push_back(psi.values[first + i * stride]);
       const auto nodes = function(vertices, n);
       for (int i = 0; i < n; ++i) psi.values[first + i * stride] = nodes[i];

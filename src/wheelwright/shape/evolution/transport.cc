@@ -47,13 +47,13 @@ template <int dim>
 std::vector<double> squared_gradient(const Lattice<dim>& lattice, const std::vector<double>& phi,
                                      std::span<const double> velocity) {
   const auto stride = lattice_strides(lattice);
+  const auto spacing = lattice.spacing();
   std::vector<double> result(phi.size()), line;
   for (int axis = 0; axis < dim; ++axis)
-    for (int first = 0; first < lattice.n_nodes(); ++first) {
-      const auto position = lattice.node_position(first);
-      if (position[axis] != 0) continue;
+    for (const int first : first_nodes(lattice, axis)) {
       read_line(lattice, phi, first, axis, line);
-      const double radius = lattice.polar_point(position)[0];
+      const double radius = lattice.polar_point(first)[0];
+      const double length = spacing[axis] * (axis == 1 ? radius : 1);
       for (int i = 0; i < lattice.nodes()[axis]; ++i) {
         const int node = first + i * stride[axis];
         if (velocity[node] == 0) continue;
@@ -61,7 +61,6 @@ std::vector<double> squared_gradient(const Lattice<dim>& lattice, const std::vec
         const double curvature = v[-1] - 2 * v[0] + v[1];
         const double backward = v[0] - v[-1] + 0.5 * minmod(v[-2] - 2 * v[-1] + v[0], curvature);
         const double forward = v[1] - v[0] - 0.5 * minmod(curvature, v[0] - 2 * v[1] + v[2]);
-        const double length = lattice.spacing()[axis] * (axis == 1 ? radius : 1);
         result[node] += upwind_square(backward, forward, velocity[node]) / (length * length);
       }
     }

@@ -1,5 +1,8 @@
 #include "wheelwright/shape/geometry/components.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "wheelwright/base/periodic.h"
 
 namespace wheelwright {
@@ -9,20 +12,29 @@ namespace {
 template <int dim>
 class Samples {
  public:
-  Samples(const LevelSet<dim>& psi, int per_cell) : psi_(psi), lattice_(psi.lattice.grid(), per_cell) {
-    std::vector<ShapeFunctions<dim>> shape;
-    for (int k = 0; k < power(per_cell + 1, dim); ++k) {
-      const auto p = local_node_position<dim>(per_cell, k);
+  Samples(const LevelSet<dim>& psi, int per_cell)
+      : psi_(psi), lattice_(psi.lattice.grid(), per_cell), material_(lattice_.n_nodes()) {
+    const int n = power(per_cell + 1, dim), n_nodes = nodes_per_cell<dim>(psi.lattice.degree());
+    std::vector<std::array<int, dim>> position;
+    std::vector<double> weight(n_nodes * n), sum(n);  // of the nodes at the samples of a cell, by node
+    for (int k = 0; k < n; ++k) {
+      position.push_back(local_node_position<dim>(per_cell, k));
       Vec<dim> xi;
-      for (int d = 0; d < dim; ++d) xi[d] = static_cast<double>(p[d]) / per_cell;
-      shape.emplace_back(psi.lattice.degree(), xi);
+      for (int d = 0; d < dim; ++d) xi[d] = static_cast<double>(position[k][d]) / per_cell;
+      const ShapeFunctions<dim> shape(psi.lattice.degree(), xi);
+      for (int a = 0; a < n_nodes; ++a) weight[a * n + k] = shape.value[a];
     }
-    material_.resize(lattice_.n_nodes());
     for (int cell = 0; cell < grid().n_cells(); ++cell) {
       const auto c = grid().cell_position(cell);
       const auto nodal = psi.cell_values(cell);
-      for (int k = 0; k < static_cast<int>(shape.size()); ++k)
-        material_[lattice_.node_index(lattice_.cell_node(c, k))] = value(shape[k], nodal) < 0;
+      if (has_one_sign(nodal)) {
+        std::ranges::fill(sum, nodal.front());
+      } else {
+        std::ranges::fill(sum, 0.0);
+        for (int a = 0; a < n_nodes; ++a)
+          for (int k = 0; k < n; ++k) sum[k] += weight[a * n + k] * nodal[a];
+      }
+      for (int k = 0; k < n; ++k) material_[index_of(c, position[k])] = sum[k] < 0;
     }
   }
 
@@ -50,6 +62,21 @@ class Samples {
 
  private:
   const PolarGrid<dim>& grid() const { return lattice_.grid(); }
+
+  /// Whether the cell's polynomial is so far from zero at all nodes that it has their sign everywhere: it
+  /// leaves the range of its nodal values by at most half of the range on either side.
+  static bool has_one_sign(const std::vector<double>& nodal) {
+    const auto [low, high] = std::ranges::minmax(nodal);
+    return std::abs(low + high) > 2 * (high - low);
+  }
+
+  /// The index of a cell's sample at this position in the cell.
+  int index_of(const std::array<int, dim>& cell, std::array<int, dim> position) const {
+    for (int d = 0; d < dim; ++d) position[d] += lattice_.degree() * cell[d];
+    if (position[1] == lattice_.nodes()[1]) position[1] = 0;
+    return position[1] * lattice_.nodes_per_line() + lattice_.index_on_line(position);
+  }
+
   static double value(const ShapeFunctions<dim>& shape, const std::vector<double>& nodal) {
     double sum = 0;
     for (std::size_t a = 0; a < nodal.size(); ++a) sum += shape.value[a] * nodal[a];
@@ -72,6 +99,9 @@ class FloodFill {
     stride_[0] = 1;
     if constexpr (dim == 3) stride_[2] = lattice_.nodes()[0];
     stride_[1] = lattice_.nodes_per_line();
+    for (int sample = 0; sample < lattice_.nodes_per_line(); ++sample)
+      share_.push_back(share_of(lattice_.node_position(sample)));
+    front_.reserve(lattice_.n_nodes());
     for (int first = 0; first < lattice_.n_nodes(); ++first)
       if (result_.of_sample[first] < 0) fill(first);
   }
@@ -173,13 +203,19 @@ class FloodFill {
     return x;
   }
 
-  void add(const std::array<int, dim>& p, Component<dim>& component) const {
-    const Vec<dim> x = polar_point(p);
-    double share = x[0];
+  /// The measure that belongs to a sample.
+  double share_of(const std::array<int, dim>& p) const {
+    double share = polar_point(p)[0];
     for (int d = 0; d < dim; ++d) {
       const bool on_end = d != 1 && (p[d] == 0 || p[d] + 1 == lattice_.nodes()[d]);
       share *= spacing_[d] * (on_end ? 0.5 : 1);
     }
+    return share;
+  }
+
+  void add(const std::array<int, dim>& p, Component<dim>& component) const {
+    const Vec<dim> x = polar_point(p);
+    const double share = share_[lattice_.index_on_line(p)];
     component.measure += share;
     component.centre += share * x;
     if (x[0] < component.innermost[0]) component.innermost = x;
@@ -198,6 +234,7 @@ class FloodFill {
   const Lattice<dim>& lattice_;
   Vec<dim> spacing_;
   std::array<int, dim> stride_;  ///< of the samples' indices
+  std::vector<double> share_;    ///< share_of() the samples at one azimuth
   std::vector<Place> front_;
   Components<dim> result_;
 };

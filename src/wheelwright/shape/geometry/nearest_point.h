@@ -22,12 +22,29 @@ class NearestPoint {
 
   /// Index of the point nearest to x.
   int index_of_nearest(const Vec<dim>& x) const {
-    FirstOfTheNearest result;
+    return std::max(searched(x, std::numeric_limits<double>::infinity()), 0);
+  }
+
+  /// The same, faster if the point of index `guess` is about as near.
+  int index_of_nearest(const Vec<dim>& x, int guess) const {
+    const int nearest = index_of_nearest_within(norm(x - points()[guess]), x);
+    return nearest < 0 ? guess : nearest;
+  }
+
+  /// Index of the point nearest to x if it is not farther away than `distance`, up to rounding; -1 if it is.
+  int index_of_nearest_within(double distance, const Vec<dim>& x) const {
+    constexpr double margin = 1e-9;
+    return searched(x, (1 + margin) * distance * distance + std::numeric_limits<double>::min());
+  }
+
+ private:
+  /// Of the points whose squared distance is less than this; -1 if there are none.
+  int searched(const Vec<dim>& x, double distance2) const {
+    FirstOfTheNearest result(distance2);
     tree_.findNeighbors(result, x.data(), nanoflann::SearchParams());
     return result.index();
   }
 
- private:
   /// The points in the form that nanoflann requires.
   struct Cloud {
     std::vector<Vec<dim>> points;
@@ -43,6 +60,7 @@ class NearestPoint {
   /// worstDist(), and points that are not below it. The margin lets it visit all equally near points.
   class FirstOfTheNearest {
    public:
+    explicit FirstOfTheNearest(double distance2) : distance2_(distance2) {}
     double worstDist() const {
       constexpr double margin = 1e-12;
       return (1 + margin) * distance2_ + std::numeric_limits<double>::min();
@@ -56,10 +74,10 @@ class NearestPoint {
       }
       return true;
     }
-    int index() const { return std::max(index_, 0); }
+    int index() const { return index_; }
 
    private:
-    double distance2_ = std::numeric_limits<double>::infinity();
+    double distance2_;
     int index_ = -1;
   };
 

@@ -14,7 +14,8 @@ double shrunk_radius(const NearestPoint<dim>& points, const Vec<dim>& p, const V
                      double slack, int max_steps, Touch touch) {
   for (int step = 0; step < max_steps; ++step) {
     const Vec<dim> centre = p + radius * n;
-    const int nearest = points.index_of_nearest(centre);
+    const int nearest = points.index_of_nearest_within(radius, centre);
+    if (nearest < 0) break;
     const Vec<dim>& other = points.points()[nearest];
     const Vec<dim> apart = other - p;
     if (norm(other - centre) >= radius * (1 - slack)) break;

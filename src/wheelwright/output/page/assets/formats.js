@@ -11,6 +11,15 @@ const formats = (() => {
     return text.replace(/^-/, "\u2212");
   }
 
+  // With its error, in the same digits: the error rounded up to one digit, or two if the first is 1.
+  function withError(value, error) {
+    if (!(error > 5e-7 * Math.abs(value)) || !Number.isFinite(error) || !Number.isFinite(value)) return shown(value);
+    const first = Math.floor(Math.log10(error)), upTo = (place) => Math.ceil(error / 10 ** place - 1e-9);
+    const place = upTo(first - 1) < 20 ? first - 1 : first;
+    const at = (units) => (units * 10 ** place).toFixed(Math.max(0, -place)).replace(/^-/, "\u2212");
+    return `${at(Math.round(value / 10 ** place))} \u00b1 ${at(upTo(place))}`;
+  }
+
   // At most four digits.
   const short = (value) => Number.isFinite(value) ? shown(Number(value.toPrecision(4))) : "\u2013";
 
@@ -53,6 +62,6 @@ const formats = (() => {
   const sentence = (text) => text[0].toUpperCase() + text.slice(1);
   const words = (identifier) => identifier.replaceAll("_", " ");
 
-  return { degree, shown, short, change, briefChange, within, minutes, roundMagnification, steadyMagnification,
+  return { degree, shown, withError, short, change, briefChange, within, minutes, roundMagnification, steadyMagnification,
     scaleLabels, sentence, words };
 })();

@@ -299,11 +299,15 @@ const parts = (() => {
   function chart(title, xTitle, yTitle, curves, options = {}) {
     const canvas = element("canvas", { role: "img", "aria-label": title });
     const figure = element("figure", {}, element("figcaption", {}, title), element("div", { class: "chart" }, canvas));
-    const data = (of) => of.map(({ name, x, y }, k) => ({
+    // The two sides of a band of errors around a curve.
+    const band = ({ x, y, errors }, k) => !errors ? [] : [-1, 1].map((side) => ({ label: "", isBand: true,
+      data: x.map((value, i) => ({ x: value, y: y[i] + side * errors[i] })), borderWidth: 0, pointRadius: 0, pointHitRadius: 0,
+      backgroundColor: `${curveColours[k % curveColours.length]}33`, fill: side < 0 ? "+1" : false }));
+    const data = (of) => [...of.map(({ name, x, y }, k) => ({
       label: name, data: x ? x.map((value, i) => ({ x: value, y: y[i] })) : y,
       borderColor: curveColours[k % curveColours.length], backgroundColor: options.colours ??
         curveColours[k % curveColours.length], borderWidth: options.bars ? 0 : options.compact ? 1.5 : 2,
-      pointRadius: options.compact || y.length > 30 ? 0 : 2.5, pointHitRadius: 8 }));
+      pointRadius: options.compact || y.length > 30 ? 0 : 2.5, pointHitRadius: 8 })), ...of.flatMap(band)];
     let drawn = null;
     const start = () => {
       const small = options.compact ? { font: { size: 10 }, maxTicksLimit: 4, maxRotation: 0, includeBounds: false } : {};
@@ -314,16 +318,18 @@ const parts = (() => {
         data: { labels: options.labels, datasets: data(curves) },
         options: { animation: false, responsive: true, maintainAspectRatio: false, interaction: { mode: "nearest",
           intersect: false }, scales: { x: { ...(options.bars ? {} : { type: "linear" }), ...axis(xTitle) },
-          y: { ...axis(yTitle), ...options.y } }, plugins: { legend: { display: curves.length > 1, labels: { color: colour("--ink") } } } },
+          y: { ...axis(yTitle), ...options.y } }, plugins: { legend: { display: curves.length > 1,
+            labels: { color: colour("--ink"), filter: (item, { datasets }) => !datasets[item.datasetIndex].isBand } } } },
       });
     };
     // New curves of the same kinds.
     const update = (of) => {
-      data(of).forEach((dataset, k) => {
+      const datasets = data(of);
+      datasets.forEach((dataset, k) => {
         if (drawn.data.datasets[k]) Object.assign(drawn.data.datasets[k], dataset);
         else drawn.data.datasets.push(dataset);
       });
-      drawn.data.datasets.length = of.length;
+      drawn.data.datasets.length = datasets.length;
       if (options.compact) {
         const x = of.flatMap((one) => one.x);
         Object.assign(drawn.options.scales.x, { min: Math.min(...x), max: Math.max(...x) });

@@ -16,12 +16,19 @@ const planeView = (() => {
     return points;
   }
 
-  // A function from a point of sector 0 to the nearest vertex of its mesh, found by bins of the azimuth.
-  function nearestVertices(places, sectors) {
-    const bins = 48, angle = 2 * Math.PI / sectors, n = places.length / 2;
+  const bins = 48;  // of the azimuth, in a sector
+
+  // The vertices of the mesh of sector 0 in each bin, and a function from an azimuth in this sector to its bin.
+  function binned(places, sectors) {
     const members = Array.from({ length: bins }, () => []);
-    const bin = (azimuth) => Math.max(0, Math.min(bins - 1, Math.floor(azimuth / angle * bins)));
-    for (let k = 0; k < n; ++k) members[bin(Math.atan2(places[2 * k + 1], places[2 * k]))].push(k);
+    const bin = (azimuth) => Math.max(0, Math.min(bins - 1, Math.floor(azimuth * sectors / (2 * Math.PI) * bins)));
+    for (let k = 0; k < places.length / 2; ++k) members[bin(Math.atan2(places[2 * k + 1], places[2 * k]))].push(k);
+    return { members, bin };
+  }
+
+  // A function from a point of sector 0 to the nearest vertex of its mesh.
+  function nearestVertices(places, sectors) {
+    const { members, bin } = binned(places, sectors);
     return (x, y) => {
       const at = bin(Math.atan2(y, x));
       let best = 0, shortest = Infinity;
@@ -42,6 +49,39 @@ const planeView = (() => {
       const azimuth = (Math.atan2(y, x) + 2 * Math.PI) % (2 * Math.PI);
       const sector = Math.min(sectors - 1, Math.floor(azimuth / angle));
       return sector * n + nearest(...turned([x, y], -sector * angle));
+    };
+  }
+
+  // A function from a point of the body to shares of the vertices around it, numbered as in nearestInWheel: { vertices,
+  // shares }. A mean with these shares changes smoothly with the point, also in a hole, where it passes from the material on
+  // one side to that on the other.
+  function smoothShares(places, sectors) {
+    const { members } = binned(places, sectors), n = places.length / 2, angle = 2 * Math.PI / sectors, all = bins * sectors;
+    const radii = Array.from({ length: n }, (_, k) => Math.hypot(places[2 * k], places[2 * k + 1]));
+    const ring = Math.PI * (Math.max(...radii) ** 2 - Math.min(...radii) ** 2), spacing = Math.sqrt(ring / (n * sectors));
+    // Visits the vertices at most so far from a point, with their distances, and some others.
+    const visit = ([x, y], farthest, visitor) => {
+      const radius = Math.hypot(x, y), turn = radius > farthest ? Math.asin(farthest / radius) : Math.PI;
+      const reach = Math.ceil(turn / angle * bins) + 1, at = Math.floor(Math.atan2(y, x) / angle * bins);
+      for (let b = 0; b < Math.min(2 * reach + 1, all); ++b) {
+        const bin = (at - reach + b + 2 * all) % all, s = Math.floor(bin / bins), [u, v] = turned([x, y], -s * angle);
+        for (const k of members[bin % bins]) visitor(s * n + k, Math.hypot(places[2 * k] - u, places[2 * k + 1] - v));
+      }
+    };
+    return (point) => {
+      let nearest = Infinity, within = spacing;
+      do {
+        within *= 2;
+        visit(point, within, (vertex, distance) => { nearest = Math.min(nearest, distance); });
+      } while (nearest > within);
+      const farthest = 2 * (nearest + spacing), vertices = [], weights = [];
+      visit(point, farthest, (vertex, distance) => {
+        if (distance >= farthest) return;
+        vertices.push(vertex);
+        weights.push((1 - distance / farthest) ** 2);
+      });
+      const sum = weights.reduce((a, b) => a + b, 0);
+      return { vertices, shares: weights.map((weight) => weight / sum) };
     };
   }
 
@@ -90,5 +130,5 @@ const planeView = (() => {
     };
   }
 
-  return { make, turned, copiesOf, pointsOf, nearestVertices, nearestInWheel, circlePoints };
+  return { make, turned, copiesOf, pointsOf, nearestVertices, nearestInWheel, smoothShares, circlePoints };
 })();

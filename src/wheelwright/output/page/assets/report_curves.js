@@ -1,5 +1,5 @@
 "use strict";
-// The curves of a report: { title, x, y, curves: [{ name, x, y }], options }, where x and y are the titles of the axes, as
+// The curves of a report: { title, x, y, curves: [{ name, x, y, errors }], options }, where x and y are the titles of the axes, as
 // parts.chart() takes them.
 const reportCurves = (() => {
   const { degree, shown, words } = formats, { curveColours } = colours;
@@ -23,8 +23,10 @@ const reportCurves = (() => {
 
   const wheelsWith = (run, key) => Object.entries(run.rolling).filter(([, of]) => of?.[key]?.length);
 
+  // With bands of their errors, as far as they are known.
   const rollingCurve = (run, title, key, factor, unit) => ({ title, x: "azimuth [\u00b0]", y: unit, options: {},
-    curves: wheelsWith(run, key).map(([name, of]) => ({ name, ...overOneSector(of, of[key], factor, run.sectors) })) });
+    curves: wheelsWith(run, key).map(([name, of]) => ({ name, ...overOneSector(of, of[key], factor, run.sectors),
+      ...(of.errors?.[key]?.length ? { errors: overOneSector(of, of.errors[key], factor, run.sectors).y } : {}) })) });
 
   function spectrum(run, title, key, factor, unit) {
     const curves = wheelsWith(run, key).map(([name, of]) => ({ name, y: of[key].map((v) => v * factor) }));

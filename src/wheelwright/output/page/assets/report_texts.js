@@ -1,7 +1,7 @@
 "use strict";
 // The tables and sentences of a report, as plain texts.
 const reportTexts = (() => {
-  const { degree, shown, change, within, minutes, sentence, words } = formats;
+  const { degree, shown, withError, change, within, minutes, sentence, words } = formats;
   const none = "\u2013";
 
   // Columns of wheels with their change relative to the first one, in groups that may have a name: `names`, those of the
@@ -14,7 +14,8 @@ const reportTexts = (() => {
       .map(({ key, label, unit, factor }) => ({ title: `${label} [${unit}]`, cells: columns(({ numbers }, k, wheels) => {
         const isOfShape = !wheels.some((wheel) => key in wheel.numbers);  // so it is in the first group
         const missing = isOfShape ? "" : none, both = [wheels[0].numbers[key], numbers[key]];
-        const value = { key, text: Number.isFinite(numbers[key]) ? shown(numbers[key] * factor) : missing };
+        const value = { key, text: Number.isFinite(numbers[key]) ?
+          withError(numbers[key] * factor, (numbers.errors?.[key] ?? NaN) * factor) : missing };
         return k === 0 ? [value] : [value, { key: null, text: both.every(Number.isFinite) ? change(...both) : missing }];
       }) }));
     return { names: columns(({ name }, k) => k === 0 ? [name] : [name, "change"]), rows };

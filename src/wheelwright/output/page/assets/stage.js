@@ -3,7 +3,7 @@
 // newest shape, which may be newer than the colours. Coordinates and frames are those of planeView.
 const stage = (() => {
   const { colour, wheelPainter } = parts, { steadyMagnification } = formats, { bytes } = meshes;
-  const { turned, copiesOf, pointsOf, nearestInWheel, circlePoints } = planeView;
+  const { turned, copiesOf, pointsOf, nearestInWheel, smoothShares, circlePoints } = planeView;
 
   function make(overlay, picture, wheel) {
     const { sectors, inner_radius_m: inner, outer_radius_m: outer, stands_on_ground: hasGround } = wheel;
@@ -19,7 +19,7 @@ const stage = (() => {
       else painter = wheelPainter(picture, { fields, sectors, outer_radius_m: outer });
       if (isMesh) {
         const places = new Float32Array(bytes(fields.points).buffer);
-        mesh = { nearest: nearestInWheel(places, sectors),
+        mesh = { vertices: places.length / 2, nearest: nearestInWheel(places, sectors), sharesAt: smoothShares(places, sectors),
           circles: [inner, outer].map((radius) => circlePoints(places, radius)) };
       }
       const [position] = fields.positions;
@@ -36,10 +36,16 @@ const stage = (() => {
       return [magnified * field.full * field.x[k], magnified * field.full * field.y[k]];
     }
 
-    // The drawn position of a point of the body. No point of the wheel is below its ground.
-    function drawn(point) {
-      const [u, v] = displacement(point), [x, y] = turned([point[0] + u, point[1] + v], turn);
+    // The pixel of a displaced point of the body. No point of the wheel is below its ground.
+    function pixelOf(point) {
+      const [x, y] = turned(point, turn);
       return toPixel([x, hasGround ? Math.max(y, -outer) : y]);
+    }
+
+    // The drawn position of a point of the body.
+    function drawn(point) {
+      const [u, v] = displacement(point);
+      return pixelOf([point[0] + u, point[1] + v]);
     }
 
     // The point of the body that is drawn at a pixel of the page.
@@ -83,6 +89,33 @@ const stage = (() => {
     function outlinePath(outline) {
       const path = new Path2D();
       for (const { in_every_sector, points_um } of outline) addLine(path, pointsOf(points_um), in_every_sector ? sectors : 1);
+      return path;
+    }
+
+    // Lines that may lie far from all material move with a mean of the material around them: those of the nearest material
+    // would jump in the middle of a hole. The shares of an outline are kept while the mesh stays.
+    let shared = {};
+    function sharesOf(outline) {
+      if (shared.mesh !== mesh || shared.outline !== outline)
+        shared = { mesh, outline, lines: outline.map(({ in_every_sector, points_um }) => ({ copies: in_every_sector ? sectors : 1,
+          points: pointsOf(points_um).map((point) => ({ point, ...mesh.sharesAt(point) })) })) };
+      return shared.lines;
+    }
+    function smoothlyDrawn({ point, vertices, shares }, sector) {
+      const factor = magnified * field.full, all = mesh.vertices * sectors;
+      let [x, y] = turned(point, 2 * Math.PI * sector / sectors);
+      vertices.forEach((vertex, i) => {
+        const k = (vertex + sector * mesh.vertices) % all;
+        x += factor * shares[i] * field.x[k];
+        y += factor * shares[i] * field.y[k];
+      });
+      return pixelOf([x, y]);
+    }
+    function smoothPath(outline) {
+      if (!field || !isLoaded) return outlinePath(outline);
+      const path = new Path2D();
+      for (const { copies, points } of sharesOf(outline))
+        for (let s = 0; s < copies; ++s) through(path, points.map((point) => smoothlyDrawn(point, s))).closePath();
       return path;
     }
 
@@ -165,7 +198,7 @@ const stage = (() => {
         context.strokeStyle = colour("--ghost");
         context.lineWidth = 1.25 * ratio;
         context.setLineDash([5 * ratio, 4 * ratio]);
-        context.stroke(outlinePath(ghost));
+        context.stroke(smoothPath(ghost));
         context.restore();
       }
       paintGround(context);

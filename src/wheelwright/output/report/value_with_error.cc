@@ -1,0 +1,30 @@
+#include "wheelwright/output/report/value_with_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wheelwright {
+namespace {
+
+/// A number in units of a power of ten, as decimals.
+std::string at_place(double units, int place) {
+  return fmt::format("{:.{}f}", units * std::pow(10.0, place) + 0.0, std::max(0, -place));
+}
+
+}  // namespace
+
+std::string text_with_error(double value, double error) {
+  constexpr double least_shown = 5e-7;  // of the value
+  if (!(error > least_shown * std::abs(value)) || !std::isfinite(error)) return fmt::format("{:.6g}", value);
+  constexpr double rounding = 1e-9;
+  const int first = static_cast<int>(std::floor(std::log10(error)));
+  const auto rounded_up = [&](int place) { return std::ceil(error / std::pow(10.0, place) - rounding); };
+  const int place = rounded_up(first - 1) < 20 ? first - 1 : first;
+  const double digits = rounded_up(place);
+  return fmt::format("{} +- {}", at_place(std::round(value / std::pow(10.0, place)), place),
+                     at_place(digits, place));
+}
+
+}  // namespace wheelwright

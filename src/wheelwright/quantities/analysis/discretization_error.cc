@@ -1,0 +1,31 @@
+#include "wheelwright/quantities/analysis/discretization_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wheelwright {
+
+double discretization_error(double value, double on_finer_grid, double refinement) {
+  return error_safety * std::abs(value - on_finer_grid) / (1 - 1 / refinement);
+}
+
+std::vector<double> discretization_errors(std::span<const double> values,
+                                          std::span<const double> on_finer_grid, double refinement) {
+  double squares = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    squares += (values[i] - on_finer_grid[i]) * (values[i] - on_finer_grid[i]);
+  const double usual = std::sqrt(squares / static_cast<double>(values.size()));
+  const double least = discretization_error(usual, 0, refinement);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    errors.push_back(std::max(least, discretization_error(values[i], on_finer_grid[i], refinement)));
+  return errors;
+}
+
+std::optional<double> observed_order(double coarse, double middle, double fine, double refinement) {
+  const double first = std::abs(middle - coarse), second = std::abs(fine - middle);
+  if (!(first > 0 && second > 0)) return {};
+  return std::log(first / second) / std::log(refinement);
+}
+
+}  // namespace wheelwright

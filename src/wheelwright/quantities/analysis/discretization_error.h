@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace wheelwright {
+
+/// The factor by which the estimate exceeds the error of a number that converges with the first order.
+inline constexpr double error_safety = 1.75;
+
+/// The estimate of the discretization error |q - exact q| of a number from its value on a finer grid, whose
+/// cells are smaller by the factor r > 1: safety |q - q_fine| / (1 - 1/r). Without the factor it is exact for
+/// errors proportional to the size of the cells, and too large if they fall faster.
+double discretization_error(double value, double on_finer_grid, double refinement);
+
+/// The estimates of values at load positions that divide one sector. The error at one position changes its
+/// sign from cell to cell, and may happen to be small on both grids; therefore each estimate is at least that
+/// of the root of the mean square difference of all positions.
+std::vector<double> discretization_errors(std::span<const double> values,
+                                          std::span<const double> on_finer_grid, double refinement);
+
+/// The order p of convergence observed on three grids, each finer than the one before by the factor r:
+/// differences fall by r^p. Negative if they grow; nothing if two of the values are equal.
+std::optional<double> observed_order(double coarse, double middle, double fine, double refinement);
+
+/// Below this order a number does not visibly converge: peaks at corners, where the exact stress has no
+/// bound, grow with every finer grid.
+inline constexpr double least_order = 0.25;
+
+}  // namespace wheelwright

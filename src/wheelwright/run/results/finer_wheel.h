@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "wheelwright/case/case.h"
+#include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/run/study/study.h"
+
+namespace wheelwright {
+
+/// A shape on a finer grid.
+template <int dim>
+struct FinerShape {
+  std::shared_ptr<const StateSolver<dim>> solver;
+  LevelSet<dim> shape;
+  double refinement;  ///< the factor by which its cells are smaller
+};
+
+/// The most unknowns of a finer grid.
+template <int dim>
+inline constexpr double most_unknowns_of_finer_grid = dim == 2 ? 5e6 : 1e6;
+
+/// A shape of the solver's grid on the next finer one (quantities/analysis/finer_grid.h); or in one line why
+/// not: its unknowns are too many, the memory too small, or the solver refuses it.
+template <int dim>
+Expected<FinerShape<dim>, std::string> finer_shape(const Case& c, const StateSolver<dim>& solver,
+                                                   const LevelSet<dim>& psi);
+
+/// The wheel on the finer grid in numbers, from its states there.
+template <int dim>
+KnownFinerWheel<dim> finer_wheel(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
+                                 const SolvedStates<dim>& states);
+
+/// The objective of a case on the finer grid, from the states there.
+template <int dim>
+KnownNumber objective_of(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
+                         const SolvedStates<dim>& states);
+
+}  // namespace wheelwright

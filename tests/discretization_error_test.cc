@@ -1,0 +1,277 @@
+// Estimates of the discretization error: formulas, and that they contain the true errors.
+
+#include "wheelwright/quantities/analysis/discretization_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <numbers>
+
+#include "tests/random_wheels.h"
+#include "tests/support.h"
+#include "wheelwright/case/dimension.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/write.h"
+#include "wheelwright/output/report/comparison_table.h"
+#include "wheelwright/output/report/value_with_error.h"
+#include "wheelwright/quantities/analysis/finer_grid.h"
+#include "wheelwright/run/study/study.h"
+#include "wheelwright/shape/cut/measure.h"
+
+namespace wheelwright {
+namespace {
+
+using std::numbers::pi;
+using testing::paper_model;
+
+// --- Formulas ----------------------------------------------------------------------------------------------
+
+/// q(h) = exact + h^order.
+double at_size(double h, double order) { return 3 + std::pow(h, order); }
+
+TEST(DiscretizationError, IsTheErrorOfTheFirstOrderTimesItsSafety) {
+  for (const double r : {4.0 / 3, 2.0})
+    for (const double h : {0.1, 0.03})
+      EXPECT_NEAR(discretization_error(at_size(h, 1), at_size(h / r, 1), r), 1.75 * h, 1e-12);
+}
+
+TEST(DiscretizationError, IsLargerThanTheErrorOfHigherOrders) {
+  for (const double r : {4.0 / 3, 2.0})
+    for (const double order : {1.0, 1.5, 2.0, 4.0}) {
+      const double h = 0.1, error = std::pow(h, order);
+      const double stated = discretization_error(at_size(h, order), at_size(h / r, order), r);
+      EXPECT_NEAR(stated / error, 1.75 * (1 - std::pow(r, -order)) / (1 - 1 / r), 1e-9);
+      EXPECT_GT(stated, error);
+      EXPECT_LT(stated, 5 * error);
+    }
+}
+
+TEST(DiscretizationError, OfPositionsIsAtLeastTheirUsualOne) {
+  const std::vector<double> values{1, 2, 3, 4}, on_finer{1, 2.3, 3, 3.7};
+  const auto errors = discretization_errors(values, on_finer, 2);
+  const double usual = std::sqrt((0.09 + 0.09) / 4);
+  EXPECT_NEAR(errors[0], 3.5 * usual, 1e-12);
+  EXPECT_NEAR(errors[1], 3.5 * 0.3, 1e-12);
+  EXPECT_NEAR(errors[2], 3.5 * usual, 1e-12);
+}
+
+TEST(ObservedOrder, IsThatOfAnExactSequence) {
+  for (const double r : {4.0 / 3, 2.0})
+    for (const double order : {-0.5, 0.5, 1.0, 2.0, 3.0})
+      EXPECT_NEAR(
+          *observed_order(at_size(0.1, order), at_size(0.1 / r, order), at_size(0.1 / r / r, order), r),
+          order, 1e-6);
+  EXPECT_FALSE(observed_order(1, 2, 2, 2));
+  EXPECT_FALSE(observed_order(1, 1, 2, 2));
+}
+
+TEST(ValueWithError, HasTheSameDigitsAsItsError) {
+  EXPECT_EQ(text_with_error(0.380105, 0.00077), "0.3801 +- 0.0008");
+  EXPECT_EQ(text_with_error(7742.61, 23), "7740 +- 30");
+  EXPECT_EQ(text_with_error(-1.23456, 0.0131), "-1.235 +- 0.014");
+  EXPECT_EQ(text_with_error(0.012, 0.4), "0.0 +- 0.4");
+  EXPECT_EQ(text_with_error(9.99, 0.0996), "9.99 +- 0.10");
+}
+
+TEST(ValueWithError, LeavesOutWhatRoundingHides) {
+  EXPECT_EQ(text_with_error(2943, 0), "2943");
+  EXPECT_EQ(text_with_error(2943, 1e-5), "2943");
+  EXPECT_EQ(text_with_error(2943, NAN), "2943");
+  EXPECT_EQ(text_with_error(0, 0), "0");
+}
+
+TEST(ComparisonTable, MarksChangesThatTheErrorsMayExplain) {
+  const ComparedRow small{"run-out", {1.0, 1.01}, {0.004, 0.007}},
+      clear{"travel", {1.0, 1.1}, {0.004, 0.007}}, unknown{"mass", {1.0, 1.01}};
+  const auto is_marked = [](const ComparedRow& row) {
+    return comparison_table({"a", "b"}, {row}).find('~') != std::string::npos;
+  };
+  EXPECT_TRUE(is_marked(small));
+  EXPECT_FALSE(is_marked(clear));
+  EXPECT_FALSE(is_marked(unknown));
+  EXPECT_NE(comparison_table({"a", "b"}, {small}).find("1.010 +- 0.007"), std::string::npos);
+}
+
+// --- The finer grid ----------------------------------------------------------------------------------------
+
+TEST(FinerGrid, HasTheSameWheel) {
+  const auto model = paper_model(14, 192), finer = on_finer_grid(model);
+  const LevelSet<2> psi = testing::paper_holes(model.grid), there = on_grid(psi, finer.grid);
+  EXPECT_EQ(refinement(model.grid, finer.grid), 2);
+  EXPECT_NEAR(material_measure(there), material_measure(psi), 1e-12 * material_measure(psi));
+  EXPECT_NEAR(finer.tread.rows * finer.grid.cell_size()[0], model.tread.rows * model.grid.cell_size()[0],
+              1e-15);
+  EXPECT_NEAR(most_unknowns(model), 2.0 * 29 * 384, 1e-9);
+}
+
+RollingModel<3> solid_model(std::array<int, 3> cells) {
+  RollingModel<3> model;
+  model.grid = {0.20, 0.34, 0.12, 16, cells};
+  model.degree = 2;
+  model.materials = Material{200e6, 0.3};
+  model.load = 2943;
+  model.n_positions = 2;
+  model.contact_points = 3;
+  return model;
+}
+
+TEST(FinerGrid, KeepsHalvesOfTheWidthInThreeDimensions) {
+  for (const std::array<int, 3> cells : {std::array{7, 6, 4}, {6, 9, 2}, {12, 12, 6}, {5, 5, 3}}) {
+    const auto model = solid_model(cells), finer = on_finer_grid(model);
+    for (int d = 0; d < 3; ++d) EXPECT_GE(3 * finer.grid.cells[d], 4 * cells[d]);
+    if (cells[2] % 2 == 0) {
+      EXPECT_EQ(finer.grid.cells[2] % 2, 0);
+    }
+    EXPECT_GE(refinement(model.grid, finer.grid), 4.0 / 3 - 1e-12);
+  }
+}
+
+TEST(FinerGrid, KeepsTheThicknessOfAnObservedAnnulus) {
+  auto model = solid_model({7, 6, 2});
+  model.tread.annulus_points = 3;
+  for (const int rows : {1, 2, 3}) {
+    model.tread.rows = rows;
+    const auto finer = on_finer_grid(model);
+    EXPECT_NEAR(finer.tread.rows * finer.grid.cell_size()[0], rows * model.grid.cell_size()[0], 1e-15);
+  }
+}
+
+// --- True errors -------------------------------------------------------------------------------------------
+
+template <int dim>
+DescribedWheel<dim> described_on(const RollingModel<dim>& model, const LevelSet<dim>& psi) {
+  const auto solver = make_solver(model);
+  if (!solver) throw std::runtime_error(solver.failure().detail);
+  const auto states = (*solver)->states(psi, (*solver)->distinct_positions(psi), Interrupt());
+  return described_solution<dim>(**solver, psi, material_measure(psi) / sector_measure<dim>(model.grid),
+                                 states, {});
+}
+
+/// The wheel with its errors, and its grid.
+template <int dim>
+struct Estimated {
+  DescribedWheel<dim> wheel;
+  RollingModel<dim> finer;
+};
+
+template <int dim>
+Estimated<dim> estimated(const RollingModel<dim>& model, const LevelSet<dim>& psi) {
+  const auto finer = on_finer_grid(model);
+  return {with_errors<dim>(described_on(model, psi),
+                           FinerWheel<dim>{described_on(finer, on_grid(psi, finer.grid)),
+                                           refinement(model.grid, finer.grid)}),
+          finer};
+}
+
+/// How often the stated errors contain the true ones, and their ratios.
+struct Coverage {
+  int contained = 0, all = 0;
+  std::vector<double> ratios = {};  ///< stated / true
+
+  void add(double stated, double truth, double value) {
+    if (truth < 1e-8 * std::abs(value)) return;  // exact up to rounding
+    ++all;
+    contained += truth <= stated;
+    ratios.push_back(stated / truth);
+  }
+  double share() const { return contained / static_cast<double>(all); }
+  double median() {
+    std::ranges::nth_element(ratios, ratios.begin() + std::ssize(ratios) / 2);
+    return ratios[ratios.size() / 2];
+  }
+};
+
+/// Adds all numbers of a wheel; the truth is on the grid that is finer than the finer one.
+template <int dim>
+void add_wheel(const Estimated<dim>& of, const LevelSet<dim>& psi, Coverage& coverage) {
+  const auto finest = on_finer_grid(of.finer);
+  const DescribedWheel<dim> truth = described_on(finest, on_grid(psi, finest.grid));
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) {
+    const auto value = known_value(number, of.wheel), exact = known_value(number, truth);
+    const auto error = error_of(number, of.wheel);
+    if (value && exact && error && *error) coverage.add(**error, std::abs(*value - *exact), *value);
+  }
+}
+
+TEST(DiscretizationError, ContainsThatOfABushing) {
+  for (const double nu : {0.3, 0.48, 0.499, 0.4999}) {
+    auto model = paper_model(4, 64);
+    model.grid.n_sectors = 8;
+    model.grid.cells[1] = 8;
+    model.materials = Material{2e6, nu};
+    model.contact.counterpart = Counterpart::ring;
+    model.contact_points = 3;
+    model.n_positions = 1;
+    const auto [wheel, finer] = estimated(model, testing::holes(model.grid, 2, {}));
+    // Kolosov's solution with the displacements of both circles given, as in bushing_test.cc.
+    const double kappa = 3 - 4 * nu, a = 0.04, b = 0.1156, mu = 2e6 / (2 * (1 + nu));
+    const double stiffness =
+        4 * pi * mu * (1 + kappa) / (kappa * std::log(b / a) - 2 / kappa * (b - a) / (b + a)) * 0.12;
+    for (const WheelNumber<2>& number : wheel_numbers<2>()) {
+      if (number.key != "stiffness_N_per_m") continue;
+      const double truth = std::abs(*known_value(number, wheel) - stiffness);
+      EXPECT_LE(truth, **error_of(number, wheel)) << nu;
+      EXPECT_LE(**error_of(number, wheel), 5 * truth) << nu;
+    }
+  }
+}
+
+TEST(DiscretizationError, ContainsThatOfAWheelWithoutSymmetry) {
+  auto model = paper_model(10, 128);
+  model.grid.n_sectors = 8;
+  model.grid.cells[1] = 16;
+  model.tread.levels = 2;
+  model.n_positions = 4;
+  const auto psi =
+      testing::holes(model.grid, 2, {{0.26, 0.3 * model.grid.sector_angle(), 0.03}, {0.285, 0.62, 0.015}});
+  Coverage coverage;
+  add_wheel(estimated(model, psi), psi, coverage);
+  EXPECT_GE(coverage.all, 10);
+  EXPECT_EQ(coverage.contained, coverage.all);
+  EXPECT_LE(coverage.median(), 5);
+}
+
+TEST(DiscretizationError, ContainsThatOfASolidWheelWithoutSymmetry) {
+  const auto model = solid_model({6, 6, 2});
+  const Circle hole{0.2581, 0.4 * model.grid.sector_angle(), 0.03};
+  const auto psi = make_level_set<3>(Lattice<3>(model.grid, 1), std::span(&hole, 1));
+  Coverage coverage;
+  add_wheel(estimated(model, psi), psi, coverage);
+  EXPECT_GE(coverage.all, 10);
+  EXPECT_GE(coverage.share(), 0.9);
+}
+
+/// Solid or plane, as far as they are drawn sensibly: solved on all three grids.
+template <int dim>
+void add_random_wheel(const Case& c, Coverage& coverage) {
+  constexpr double most = dim == 2 ? 5e5 : 1.5e5;
+  const auto model = rolling_model<dim>(c);
+  if (most_unknowns(on_finer_grid(on_finer_grid(model))) > most || !make_solver(model)) return;
+  const LevelSet<dim> psi = initial_shape<dim>(c);
+  const auto of = estimated(model, psi);
+  if (of.wheel.loaded && of.wheel.loaded->summary.deformation.travel < 0.3) add_wheel(of, psi, coverage);
+}
+
+void expect_coverage(int n_wheels, unsigned seed) {
+  testing::AnyWheels wheels(seed);
+  Coverage coverage;
+  for (int k = 0; k < n_wheels; ++k) {
+    const CaseResult read = parse_case(to_toml(wheels.draw()), "random.toml");
+    if (read.value)
+      in_dimension_of(*read.value, [&](auto dim) {
+        add_random_wheel<dim>(*read.value, coverage);
+        return 0;
+      });
+  }
+  std::cout << coverage.all << " numbers, " << 100 * coverage.share()
+            << " % within the stated error, median of "
+            << "stated by true error " << coverage.median() << "\n";
+  EXPECT_GE(coverage.share(), 0.95);
+  EXPECT_LE(coverage.median(), 5);
+}
+
+TEST(DiscretizationError, ContainsThatOfRandomWheelsSlow) { expect_coverage(60, 5); }
+
+}  // namespace
+}  // namespace wheelwright
