@@ -55,8 +55,8 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
   const auto& [with, method, theta, gamma_0, friction, points] = t;
   expect_keys(t, with, method, theta, gamma_0, friction, points);
   const Grid g;
-  const auto& [radial, angular, axial, degree, level_set_degree, levels] = g;
-  expect_keys(g, radial, angular, axial, degree, level_set_degree, levels);
+  const auto& [radial, angular, axial, degree, dilatation, level_set_degree, levels] = g;
+  expect_keys(g, radial, angular, axial, degree, dilatation, level_set_degree, levels);
   const GhostPenalty p;
   const auto& [kind, xi] = p;
   expect_keys(p, kind, xi);
