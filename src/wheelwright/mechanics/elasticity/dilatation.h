@@ -2,10 +2,10 @@
 
 namespace wheelwright {
 
-/// The dilatation on which the bulk modulus K = lambda + 2 mu / dim of an element of degree 2 works.
+/// The dilatation on which lambda works in elements of degree 2.
 enum class DilatationKind {
-  /// All of K but mu / 2 on div u projected on the linear functions of a cell, which does not lock for any nu
-  /// below 1/2, and the rest on div u.
+  /// lambda + mu / 2 on div u projected on the linear functions of a cell, which does not lock for any nu
+  /// below 1/2, and -mu / 2 on div u.
   projected,
   pointwise,  ///< on div u: the displacement element of other programs
 };

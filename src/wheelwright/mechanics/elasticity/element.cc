@@ -20,9 +20,10 @@ constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
 /// the slope of div u across it. Rounding of the variance is 1e-16.
 constexpr double smallest_variance = 1e-12;
 
-/// The part of the bulk modulus that works on div u itself, in units of mu. Without it the travel is a little
-/// more accurate, and the peak stress at holes less (docs/method.md).
-constexpr double pointwise_bulk = 0.5;
+/// The part of lambda that works on div u itself, in units of mu. Were it -2 / dim, nothing of the bulk
+/// modulus did: the travel would be a little more accurate, and the peak stress at holes less
+/// (docs/method.md). The same number in 2D and 3D lets both have the same plane strain.
+constexpr double pointwise_lambda = -0.5;
 
 /// Strains or stresses on the dofs of a cell, [component][dof].
 template <int dim>
@@ -136,9 +137,8 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
   if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
   if (const Material* material = law.isotropic();
       material && dilatation == DilatationKind::projected && degree == 2) {
-    const double bulk = material->lambda() + 2 * material->mu() / dim;
-    projected_bulk_ = bulk - pointwise_bulk * material->mu();
-    projected_share_ = projected_bulk_ / bulk;
+    projected_lambda_ = material->lambda() - pointwise_lambda * material->mu();
+    projected_share_ = projected_lambda_ / (material->lambda() + 2 * material->mu() / dim);
     dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2));
   }
 }
@@ -283,7 +283,7 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>
   Matrix k(n, n);
   auto lame = lame_constants(law);
   const bool projects = element.projects_dilatation();
-  if (projects) lame->lambda -= element.projected_bulk();  // added below
+  if (projects) lame->lambda -= element.projected_lambda();  // added below
   DilatationMoments<dim> moments(projects ? n : 0);
   OnDofs<dim> stresses;
   for (const auto& q : points) {
@@ -302,7 +302,7 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>
       }
   }
   if (projects)
-    multiply(element.projected_bulk(), moments.of_dofs, Op::transpose, moments.coefficients(), Op::none, 1,
+    multiply(element.projected_lambda(), moments.of_dofs, Op::transpose, moments.coefficients(), Op::none, 1,
              k);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < j; ++i) k(i, j) = k(j, i);

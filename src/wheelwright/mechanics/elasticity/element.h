@@ -21,7 +21,7 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
 /// dof(). All results are in the Cartesian frame of the cell: its first axis is radial at the first azimuth
 /// of the cell.
 ///
-/// In an isotropic material nearly all of the bulk modulus of the element of degree 2 works on div u
+/// In an isotropic material most of the bulk modulus of the element of degree 2 works on div u
 /// projected in L2 on the linear functions of x, on the part of the cell that is material: the mixed element
 /// of quadratic displacement and discontinuous, linear pressure, which does not lock, with its pressure
 /// eliminated. A small part works on div u itself, without which stresses at edges of holes are less accurate
@@ -58,8 +58,8 @@ class ElasticElement {
     std::array<std::array<double, max_dofs>, dim> displacement;       ///< rows: components
     std::array<double, max_dofs> dilatation;                          ///< div u, never projected
   };
-  /// With a strain whose trace gives the pressure: the share of projected_bulk() in K is that of div u
-  /// projected on the whole cell, also where the cell is cut.
+  /// With a strain whose trace gives the pressure: where projected_lambda() works on it, div u is projected
+  /// on the whole cell, also where the cell is cut.
   Point at(const Vec<dim>& xi) const;
   /// With the strain of u itself.
   Point with_own_strain(const Vec<dim>& xi) const;
@@ -73,9 +73,9 @@ class ElasticElement {
   std::array<std::array<double, max_dofs>, dim> second_derivative(const Vec<dim>& xi, int axis,
                                                                   const Vec<dim>& n) const;
 
-  /// The part of K = lambda + 2 mu / dim that works on the projected dilatation; 0 if there is none [Pa].
-  double projected_bulk() const { return projected_bulk_; }
-  bool projects_dilatation() const { return projected_bulk_ > 0; }
+  /// The part of lambda that works on the projected dilatation; 0 if there is none [Pa].
+  double projected_lambda() const { return projected_lambda_; }
+  bool projects_dilatation() const { return projected_lambda_ > 0; }
 
   /// The linear functions of x, on which div u is projected: 1 and the components of (x - x_c) / h_T, with
   /// x_c the middle of the cell.
@@ -90,7 +90,8 @@ class ElasticElement {
   CellMap<dim> map_;
   std::array<Mat<dim>, max_nodes> frames_;  ///< polar to Cartesian components at each node
   double plane_diameter_, axial_length_ = 0;
-  double projected_bulk_ = 0, projected_share_ = 0;  ///< the latter of K
+  double projected_lambda_ = 0;
+  double projected_share_ = 0;  ///< of the bulk modulus
   Matrix dilatation_;  ///< coefficients of div u projected on the whole cell; empty if it is not projected
 };
 

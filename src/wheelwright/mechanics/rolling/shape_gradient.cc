@@ -176,16 +176,16 @@ class Densities {
   }
 
   /// The effect of the projection of div u in a cut cell on energy_and_work(), whose strains have the trace
-  /// t. The energy of the cell is the integral of (K - B) (div u)^2 / 2 over its material and the maximum,
-  /// over linear pressures B q, of that of B (q div u - q^2 / 2), with K = lambda + 2 mu / dim and B =
-  /// projected_bulk(). At the maximum q is the projection of div u, and the derivative to the shape is that
-  /// of the integral for this q: K div u div p - B (div u - q_u) (div p - q_p) takes the place of K t_u t_p.
+  /// t. The energy of the cell is the integral of (K - L) (div u)^2 / 2 over its material and the maximum,
+  /// over linear pressures L q, of that of L (q div u - q^2 / 2), with K = lambda + 2 mu / dim and L =
+  /// projected_lambda(). At the maximum q is the projection of div u, and the derivative to the shape is that
+  /// of the integral for this q: K div u div p - L (div u - q_u) (div p - q_p) takes the place of K t_u t_p.
   void add_projection(const std::vector<double>& energy, const ElasticElement<dim>& element,
                       const MaterialLaw<dim>& law, const Matrix& u, const Matrix& p,
                       const Matrix& dilatations, std::vector<double>& densities) const {
     const Material& material = *law.isotropic();
     const double bulk = material.lambda() + 2 * material.mu() / dim,
-                 projected_bulk = element.projected_bulk();
+                 projected_lambda = element.projected_lambda();
     const Matrix of_u = product(u, Op::none, dilatations, Op::none);
     Matrix of_p = product(p, Op::none, dilatations, Op::none);
     if (!energy.empty()) {
@@ -197,7 +197,7 @@ class Densities {
       for (int mode = 0; mode < u.rows(); ++mode)
         densities[q] +=
             bulk * (of_u(mode, dilatation) * of_p(mode, dilatation) - of_u(mode, trace) * of_p(mode, trace)) -
-            projected_bulk * (of_u(mode, dilatation) - of_u(mode, projected)) *
+            projected_lambda * (of_u(mode, dilatation) - of_u(mode, projected)) *
                 (of_p(mode, dilatation) - of_p(mode, projected));
     }
   }
