@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <iostream>
 #include <numbers>
 
@@ -18,6 +19,7 @@
 #include "wheelwright/quantities/analysis/finer_grid.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 namespace wheelwright {
 namespace {
@@ -33,7 +35,7 @@ double at_size(double h, double order) { return 3 + std::pow(h, order); }
 TEST(DiscretizationError, IsTheErrorOfTheFirstOrderTimesItsSafety) {
   for (const double r : {4.0 / 3, 2.0})
     for (const double h : {0.1, 0.03})
-      EXPECT_NEAR(discretization_error(at_size(h, 1), at_size(h / r, 1), r), 1.75 * h, 1e-12);
+      EXPECT_NEAR(discretization_error(at_size(h, 1), at_size(h / r, 1), r), 2 * h, 1e-12);
 }
 
 TEST(DiscretizationError, IsLargerThanTheErrorOfHigherOrders) {
@@ -41,19 +43,23 @@ TEST(DiscretizationError, IsLargerThanTheErrorOfHigherOrders) {
     for (const double order : {1.0, 1.5, 2.0, 4.0}) {
       const double h = 0.1, error = std::pow(h, order);
       const double stated = discretization_error(at_size(h, order), at_size(h / r, order), r);
-      EXPECT_NEAR(stated / error, 1.75 * (1 - std::pow(r, -order)) / (1 - 1 / r), 1e-9);
+      EXPECT_NEAR(stated / error, 2 * (1 - std::pow(r, -order)) / (1 - 1 / r), 1e-9);
       EXPECT_GT(stated, error);
-      EXPECT_LT(stated, 5 * error);
+      EXPECT_LT(stated, 6 * error);
     }
+}
+
+TEST(DiscretizationError, OfAnExtremeIsTwiceAsLarge) {
+  EXPECT_EQ(discretization_error(1, 1.5, 2, Converges::as_an_extreme), 2 * discretization_error(1, 1.5, 2));
 }
 
 TEST(DiscretizationError, OfPositionsIsAtLeastTheirUsualOne) {
   const std::vector<double> values{1, 2, 3, 4}, on_finer{1, 2.3, 3, 3.7};
   const auto errors = discretization_errors(values, on_finer, 2);
   const double usual = std::sqrt((0.09 + 0.09) / 4);
-  EXPECT_NEAR(errors[0], 3.5 * usual, 1e-12);
-  EXPECT_NEAR(errors[1], 3.5 * 0.3, 1e-12);
-  EXPECT_NEAR(errors[2], 3.5 * usual, 1e-12);
+  EXPECT_NEAR(errors[0], 4 * usual, 1e-12);
+  EXPECT_NEAR(errors[1], 4 * 0.3, 1e-12);
+  EXPECT_NEAR(errors[2], 4 * usual, 1e-12);
 }
 
 TEST(ObservedOrder, IsThatOfAnExactSequence) {
@@ -99,7 +105,10 @@ TEST(FinerGrid, HasTheSameWheel) {
   const auto model = paper_model(14, 192), finer = on_finer_grid(model);
   const LevelSet<2> psi = testing::paper_holes(model.grid), there = on_grid(psi, finer.grid);
   EXPECT_EQ(refinement(model.grid, finer.grid), 2);
-  EXPECT_NEAR(material_measure(there), material_measure(psi), 1e-12 * material_measure(psi));
+  for (const double t : {0.0, 0.123, 0.5, 0.77, 0.991}) {
+    const Vec<2> place{0.2 + 0.14 * t, 7 * t};
+    EXPECT_NEAR(value_at<2>(there, place), value_at<2>(psi, place), 1e-15);
+  }
   EXPECT_NEAR(finer.tread.rows * finer.grid.cell_size()[0], model.tread.rows * model.grid.cell_size()[0],
               1e-15);
   EXPECT_NEAR(most_unknowns(model), 2.0 * 29 * 384, 1e-9);
@@ -139,11 +148,18 @@ TEST(FinerGrid, KeepsTheThicknessOfAnObservedAnnulus) {
 
 // --- True errors -------------------------------------------------------------------------------------------
 
+/// Requested after so much processor time: few of the random wheels take longer.
+constexpr double most_seconds = 15;
+Interrupt after_seconds(double seconds) {
+  return Interrupt(
+      [end = std::clock() + seconds * CLOCKS_PER_SEC] { return static_cast<double>(std::clock()) > end; });
+}
+
 template <int dim>
 DescribedWheel<dim> described_on(const RollingModel<dim>& model, const LevelSet<dim>& psi) {
   const auto solver = make_solver(model);
   if (!solver) throw std::runtime_error(solver.failure().detail);
-  const auto states = (*solver)->states(psi, (*solver)->distinct_positions(psi), Interrupt());
+  const auto states = (*solver)->states(psi, (*solver)->distinct_positions(psi), after_seconds(most_seconds));
   return described_solution<dim>(**solver, psi, material_measure(psi) / sector_measure<dim>(model.grid),
                                  states, {});
 }
@@ -169,8 +185,8 @@ struct Coverage {
   int contained = 0, all = 0;
   std::vector<double> ratios = {};  ///< stated / true
 
-  void add(double stated, double truth, double value) {
-    if (truth < 1e-8 * std::abs(value)) return;  // exact up to rounding
+  void add(double stated, double truth, double value, double scale) {
+    if (truth < std::max(1e-8 * std::abs(value), 1e-9 * scale)) return;  // exact up to rounding
     ++all;
     contained += truth <= stated;
     ratios.push_back(stated / truth);
@@ -182,6 +198,15 @@ struct Coverage {
   }
 };
 
+/// The size of the numbers from which a number is a difference: the run-out of a ring is rounding.
+template <int dim>
+double scale_of(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel) {
+  const std::string& key = number.key;
+  if (!wheel.loaded || !(key.starts_with("run_out") || key.starts_with("force_"))) return 0;
+  const RollingAnalysis& rolling = wheel.loaded->rolling;
+  return key.starts_with("run_out") ? rolling.travel : rolling.load * whole_width(dim, wheel.grid.width);
+}
+
 /// Adds all numbers of a wheel; the truth is on the grid that is finer than the finer one.
 template <int dim>
 void add_wheel(const Estimated<dim>& of, const LevelSet<dim>& psi, Coverage& coverage) {
@@ -190,7 +215,8 @@ void add_wheel(const Estimated<dim>& of, const LevelSet<dim>& psi, Coverage& cov
   for (const WheelNumber<dim>& number : wheel_numbers<dim>()) {
     const auto value = known_value(number, of.wheel), exact = known_value(number, truth);
     const auto error = error_of(number, of.wheel);
-    if (value && exact && error && *error) coverage.add(**error, std::abs(*value - *exact), *value);
+    if (value && exact && error && *error)
+      coverage.add(**error, std::abs(*value - *exact), *value, scale_of(number, of.wheel));
   }
 }
 

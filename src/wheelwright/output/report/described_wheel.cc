@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "wheelwright/cad/outline/fit_outline.h"
-#include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/functionals/quantities.h"
 
 namespace wheelwright {
@@ -184,71 +183,81 @@ std::optional<double> known_value(const WheelNumber<dim>& number, const Describe
 
 namespace {
 
+Converges convergence(const Quantity& quantity) {
+  return quantity->is_maximum ? Converges::as_an_extreme : Converges::as_an_integral;
+}
+
 /// A number that is a quantity of cases; by default with its label.
 template <int dim>
 WheelNumber<dim> number(std::string_view quantity,
                         std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&),
                         std::string own_label = {}) {
   const Quantity& of = built_in(quantity);
-  return {own_label.empty() ? label(of) : std::move(own_label), kind(of), number_key(of, dim), value,
-          of->of == Positions::none};
+  return {own_label.empty() ? label(of) : std::move(own_label),
+          kind(of),
+          number_key(of, dim),
+          value,
+          of->of == Positions::none,
+          convergence(of)};
 }
 
 template <int dim>
 std::vector<WheelNumber<dim>> numbers_under_load() {
   using Wheel = DescribedWheel<dim>;
   using Loaded = LoadedWheel<dim>;
-  return {
-      {"load", UnitKind::force, "load_N",
-       [](const Wheel& w) {
-         return under_load(w, [&](const Loaded& l) { return l.rolling.load * width(w); });
-       }},
-      number<dim>("mean_travel",
-                  [](const Wheel& w) {
-                    return under_load(
-                        w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::travel)); });
-                  }),
-      number<dim>("stiffness",
-                  [](const Wheel& w) {
-                    return under_load(w, [&](const Loaded& l) { return l.summary.stiffness * width(w); });
-                  }),
-      number<dim>(
-          "run_out",
-          [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, peak_to_peak); },
-          "run-out at fixed load"),
-      {"  its first sector harmonic", UnitKind::length, "run_out_first_harmonic_m",
-       [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, first_harmonic); }},
-      number<dim>(
-          "force_variation",
-          [](const Wheel& w) {
-            return of_curve(w, &RollingAnalysis::force_at_travel, width(w), peak_to_peak);
-          },
-          "radial force variation at fixed travel"),
-      {"  its first sector harmonic", UnitKind::force, "force_first_harmonic_N",
-       [](const Wheel& w) {
-         return of_curve(w, &RollingAnalysis::force_at_travel, width(w), first_harmonic);
-       }},
-      number<dim>("peak_pressure",
-                  [](const Wheel& w) {
-                    return under_load(w, [](const Loaded& l) { return l.summary.rolling.peak_pressure; });
-                  }),
-      {"mean length of the contact patch", UnitKind::length, "patch_length_m",
-       [](const Wheel& w) {
-         return under_load(
-             w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::patch_length)); });
-       }},
-      {"  with its gaps", UnitKind::length, "patch_extent_m", [](const Wheel& w) { return patch_extent(w); }},
-      number<dim>("peak_von_mises",
-                  [](const Wheel& w) {
-                    return under_load(w, [](const Loaded& l) { return l.summary.von_mises.value; });
-                  }),
-      number<dim>("largest_strain",
-                  [](const Wheel& w) {
-                    return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
-                  }),
-      number<dim>("strain_energy", [](const Wheel& w) {
-        return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; });
-      })};
+  return {{"load", UnitKind::force, "load_N",
+           [](const Wheel& w) {
+             return under_load(w, [&](const Loaded& l) { return l.rolling.load * width(w); });
+           }},
+          number<dim>("mean_travel",
+                      [](const Wheel& w) {
+                        return under_load(w, [](const Loaded& l) {
+                          return mean(of_positions(l, &ContactSummary::travel));
+                        });
+                      }),
+          number<dim>("stiffness",
+                      [](const Wheel& w) {
+                        return under_load(w, [&](const Loaded& l) { return l.summary.stiffness * width(w); });
+                      }),
+          number<dim>(
+              "run_out",
+              [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, peak_to_peak); },
+              "run-out at fixed load"),
+          {"  its first sector harmonic", UnitKind::length, "run_out_first_harmonic_m",
+           [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, first_harmonic); }},
+          number<dim>(
+              "force_variation",
+              [](const Wheel& w) {
+                return of_curve(w, &RollingAnalysis::force_at_travel, width(w), peak_to_peak);
+              },
+              "radial force variation at fixed travel"),
+          {"  its first sector harmonic", UnitKind::force, "force_first_harmonic_N",
+           [](const Wheel& w) {
+             return of_curve(w, &RollingAnalysis::force_at_travel, width(w), first_harmonic);
+           }},
+          number<dim>("peak_pressure",
+                      [](const Wheel& w) {
+                        return under_load(w, [](const Loaded& l) { return l.summary.rolling.peak_pressure; });
+                      }),
+          {"mean length of the contact patch", UnitKind::length, "patch_length_m",
+           [](const Wheel& w) {
+             return under_load(
+                 w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::patch_length)); });
+           },
+           false, Converges::as_an_extreme},
+          {"  with its gaps", UnitKind::length, "patch_extent_m",
+           [](const Wheel& w) { return patch_extent(w); }, false, Converges::as_an_extreme},
+          number<dim>("peak_von_mises",
+                      [](const Wheel& w) {
+                        return under_load(w, [](const Loaded& l) { return l.summary.von_mises.value; });
+                      }),
+          number<dim>("largest_strain",
+                      [](const Wheel& w) {
+                        return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
+                      }),
+          number<dim>("strain_energy", [](const Wheel& w) {
+            return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; });
+          })};
 }
 
 /// Measured on the curves fitted to the edges.
@@ -297,7 +306,7 @@ std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel) {
                      const auto found = std::ranges::find(of.own, quantity, &OwnNumber::quantity);
                      return found == of.own.end() ? std::nullopt : Number(found->value);
                    },
-                   own.quantity->of == Positions::none});
+                   own.quantity->of == Positions::none, convergence(own.quantity)});
   return all;
 }
 
@@ -311,7 +320,7 @@ std::optional<KnownNumber> error_of(const WheelNumber<dim>& number, const Descri
   if (!on_finer) return {};
   if (!*on_finer) return "on the finer grid: " + on_finer->failure();
   if (!std::isfinite(**on_finer)) return std::string("it is not finite on the finer grid");
-  return discretization_error(*value, **on_finer, finer->refinement);
+  return discretization_error(*value, **on_finer, finer->refinement, number.converges);
 }
 
 template decltype(described_wheel<2>) described_wheel<2>;

@@ -11,6 +11,7 @@
 #include "wheelwright/cad/outline/outline.h"
 #include "wheelwright/cad/outline/roughness.h"
 #include "wheelwright/mechanics/state/load_case.h"
+#include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/quantities/functionals/quantity.h"
@@ -120,6 +121,7 @@ struct WheelNumber {
   /// the reason if it could not be computed.
   std::function<std::optional<KnownNumber>(const DescribedWheel<dim>&)> value;
   bool is_of_shape = false;  ///< the same under every load
+  Converges converges = Converges::as_an_integral;
 
   ShownUnit shown() const { return shown_unit(kind, dim); }
 };

@@ -26,14 +26,22 @@ struct ShownQuantity {
   std::string name;
   ShownUnit shown;
   Expected<RollingVariation> variation;
-  std::optional<RollingVariation> errors;  ///< of the numbers of the variation
+  std::optional<RollingVariation> errors = {};  ///< of the numbers of the variation
+  Converges converges = Converges::as_an_integral;
 };
 
 /// A number of every load position; nothing where it could not be computed.
 struct PositionNumber {
   const char* key;
   std::function<std::optional<double>(const RollingAnalysis&, size_t position)> value;
+  Converges converges = Converges::as_an_integral;
 };
+
+/// The same, made of single points or places.
+PositionNumber extreme(PositionNumber number) {
+  number.converges = Converges::as_an_extreme;
+  return number;
+}
 
 PositionNumber of_contact(const char* key, double ContactSummary::*member, double factor = 1) {
   return {key, [=](const RollingAnalysis& a, size_t i) { return a.positions[i].*member * factor; }};
@@ -60,15 +68,15 @@ std::vector<PositionNumber> position_numbers(const RollingReport& report) {
            [=](const RollingAnalysis& a, size_t i) {
              return a.positions[i].radial_force * width / a.positions[i].travel;
            }},
-          of_contact("peak_pressure_Pa", &ContactSummary::peak_pressure),
-          of_contact("patch_length_m", &ContactSummary::patch_length),
-          of_contact("patch_extent_m", &ContactSummary::patch_extent),
+          extreme(of_contact("peak_pressure_Pa", &ContactSummary::peak_pressure)),
+          extreme(of_contact("patch_length_m", &ContactSummary::patch_length)),
+          extreme(of_contact("patch_extent_m", &ContactSummary::patch_extent)),
           of_contact("friction_force_N", &ContactSummary::friction_force, width),
-          of_contact("peak_friction_Pa", &ContactSummary::peak_friction),
+          extreme(of_contact("peak_friction_Pa", &ContactSummary::peak_friction)),
           of_contact("travel_along_ground_m", &ContactSummary::travel_along_ground),
           of_contact("wind_up_rad", &ContactSummary::wind_up),
-          of_position("peak_von_mises_Pa", &RollingAnalysis::peak_von_mises),
-          of_position("peak_strain", &RollingAnalysis::peak_strain),
+          extreme(of_position("peak_von_mises_Pa", &RollingAnalysis::peak_von_mises)),
+          extreme(of_position("peak_strain", &RollingAnalysis::peak_strain)),
           of_position(report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
                       &RollingAnalysis::strain_energy),
           of_curve("travel_at_load_m", &RollingAnalysis::travel_at_load, 1),
@@ -96,7 +104,7 @@ std::vector<double> errors_of(const PositionNumber& number, const RollingReport&
   const auto values = values_of(number, report.analysis),
              on_finer = values_of(number, finer(report)->analysis);
   if (values.empty() || on_finer.empty()) return {};
-  return discretization_errors(values, on_finer, finer(report)->refinement);
+  return discretization_errors(values, on_finer, finer(report)->refinement, number.converges);
 }
 
 PositionNumber position_number(const RollingReport& report, std::string_view key) {
@@ -115,8 +123,8 @@ double peak_to_peak_error(const RollingVariation& errors) { return errors.minimu
 
 /// Of every number of a variation.
 RollingVariation variation_errors(const RollingVariation& of, const RollingVariation& on_finer,
-                                  double refinement) {
-  const auto error = [&](double a, double b) { return discretization_error(a, b, refinement); };
+                                  double refinement, Converges how) {
+  const auto error = [&](double a, double b) { return discretization_error(a, b, refinement, how); };
   RollingVariation errors{error(of.mean, on_finer.mean),
                           error(of.minimum, on_finer.minimum),
                           error(of.maximum, on_finer.maximum),
@@ -151,12 +159,13 @@ RollingVariation travel_variation(const std::vector<ContactSummary>& positions) 
 
 std::vector<ShownQuantity> quantities_of(const RollingReport& report, const RollingAnalysis& a) {
   const auto in = [&](UnitKind kind) { return shown_unit(kind, report.dimension, report.width); };
-  return {{"rim travel at fixed load", in(UnitKind::length), variation(a.travel_at_load), {}},
-          {"radial force at fixed travel", in(UnitKind::force), variation(a.force_at_travel), {}},
+  return {{"rim travel at fixed load", in(UnitKind::length), variation(a.travel_at_load)},
+          {"radial force at fixed travel", in(UnitKind::force), variation(a.force_at_travel)},
           {"peak of the contact pressure",
            in(UnitKind::stress),
            rolling_variation(peak_pressures(a.positions)),
-           {}}};
+           {},
+           Converges::as_an_extreme}};
 }
 
 std::vector<ShownQuantity> quantities(const RollingReport& report) {
@@ -165,7 +174,8 @@ std::vector<ShownQuantity> quantities(const RollingReport& report) {
   const auto on_finer = quantities_of(report, finer(report)->analysis);
   for (size_t k = 0; k < all.size(); ++k)
     if (all[k].variation && on_finer[k].variation)
-      all[k].errors = variation_errors(*all[k].variation, *on_finer[k].variation, finer(report)->refinement);
+      all[k].errors = variation_errors(*all[k].variation, *on_finer[k].variation, finer(report)->refinement,
+                                       all[k].converges);
   return all;
 }
 
@@ -301,7 +311,7 @@ double largest_stress(const RollingAnalysis& analysis) { return std::ranges::max
 /// On the finer grid the largest stress may be elsewhere.
 double stress_error(const RollingReport& report) {
   return discretization_error(largest_stress(report.analysis), largest_stress(finer(report)->analysis),
-                              finer(report)->refinement);
+                              finer(report)->refinement, Converges::as_an_extreme);
 }
 
 std::string stress_line(const RollingReport& report) {

@@ -5,20 +5,21 @@
 
 namespace wheelwright {
 
-double discretization_error(double value, double on_finer_grid, double refinement) {
-  return error_safety * std::abs(value - on_finer_grid) / (1 - 1 / refinement);
+double discretization_error(double value, double on_finer_grid, double refinement, Converges how) {
+  return error_safety(how) * std::abs(value - on_finer_grid) / (1 - 1 / refinement);
 }
 
 std::vector<double> discretization_errors(std::span<const double> values,
-                                          std::span<const double> on_finer_grid, double refinement) {
+                                          std::span<const double> on_finer_grid, double refinement,
+                                          Converges how) {
   double squares = 0;
   for (std::size_t i = 0; i < values.size(); ++i)
     squares += (values[i] - on_finer_grid[i]) * (values[i] - on_finer_grid[i]);
   const double usual = std::sqrt(squares / static_cast<double>(values.size()));
-  const double least = discretization_error(usual, 0, refinement);
+  const double least = discretization_error(usual, 0, refinement, how);
   std::vector<double> errors;
   for (std::size_t i = 0; i < values.size(); ++i)
-    errors.push_back(std::max(least, discretization_error(values[i], on_finer_grid[i], refinement)));
+    errors.push_back(std::max(least, discretization_error(values[i], on_finer_grid[i], refinement, how)));
   return errors;
 }
 

@@ -168,6 +168,7 @@ std::vector<QuantityRow> material_rows() {
            .label = "largest strain",
            .usual = Over::maximum,
            .instead = "use peak_von_mises",
+           .is_maximum = true,
            .ranked_as = "strain"},
           {.name = "peak_von_mises_inside",
            .unit = UnitKind::stress,
