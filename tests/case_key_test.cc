@@ -75,8 +75,8 @@ TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
   expect_keys(o, method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
               redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation);
   const Output f;
-  const auto& [folder, vtu, pictures, checkpoints, seconds] = f;
-  expect_keys(f, folder, vtu, pictures, checkpoints, seconds);
+  const auto& [folder, vtu, pictures, checkpoints, seconds, errors] = f;
+  expect_keys(f, folder, vtu, pictures, checkpoints, seconds, errors);
 }
 
 TEST(CaseKey, EveryMemberOfAnArrayHasAKey) {

@@ -487,7 +487,9 @@ double peak_of_children() {
 
 TEST_F(CommandLine, TheEstimateOfTheMemoryIsRightToAQuarter) {
   const std::string holes =
-      "[load]\npositions = 8\n[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.04\n";
+      "[load]\npositions = 8\n[output]\nerrors = \"none\"\n[[holes.ring]]\ncount = 16\ncenter_radius = "
+      "0.27\nradius = "
+      "0.04\n";
   int run_number = 0;
   for (const char* sections :
        {"[grid]\nradial_cells = 28\nangular_cells = 384\n",

@@ -375,12 +375,16 @@ struct Optimizer {
   bool operator==(const Optimizer&) const = default;
 };
 
+/// Whether the errors of a run's results are estimated on a finer grid, with about three times the memory.
+enum class ErrorEstimates { estimated, none };
+
 struct Output {
   std::string folder;  ///< never empty in a case that was read from a file
   int vtu_every = 10;
   int pictures_every = 0;
   int checkpoint_every = 10;       ///< shapes; 0: not by the number of shapes
   double checkpoint_seconds = 60;  ///< 0: not by elapsed time
+  ErrorEstimates errors = ErrorEstimates::estimated;
   bool operator==(const Output&) const = default;
 };
 

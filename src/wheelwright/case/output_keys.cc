@@ -30,7 +30,13 @@ const Section<Output>& output_section() {
           {.name = "checkpoint_seconds",
            .unit = "s",
            .field = NumberField<Output>{&Output::checkpoint_seconds, between(0, 1e9)},
-           .meaning = "time after which the next shape is saved too; 0 means never"}}};
+           .meaning = "time after which the next shape is saved too; 0 means never"},
+          {.name = "errors",
+           .field = choice<&Output::errors>({"estimated", "none"}),
+           .meaning =
+               "estimated: the last shape is solved on a finer grid too, from which the errors of its "
+               "numbers "
+               "follow; that takes about as long as three shapes, and is left out where memory is short"}}};
   return section;
 }
 

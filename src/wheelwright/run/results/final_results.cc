@@ -96,7 +96,8 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
   }();
   const auto objective = objective_as_given(study, initial, interrupt);
   auto summary = summarized_run(study, initial, objective, before, state, after);
-  if (shown) add_errors(study, *solver, state.shape, solutions, summary.after);
+  if (shown && study.source.output.errors == ErrorEstimates::estimated)
+    add_errors(study, *solver, state.shape, solutions, summary.after);
   return {.own = own,
           .solver = solver,
           .shown = shown ? *shown : nullptr,
