@@ -23,7 +23,7 @@ constexpr double smallest_variance = 1e-12;
 /// The part of lambda that works on div u itself, in units of mu. Were it -2 / dim, nothing of the bulk
 /// modulus did: the travel would be a little more accurate, and the peak stress at holes less
 /// (docs/method.md). The same number in 2D and 3D lets both have the same plane strain.
-constexpr double pointwise_lambda = -0.5;
+constexpr double pointwise_lambda = -0.6;
 
 /// Strains or stresses on the dofs of a cell, [component][dof].
 template <int dim>
