@@ -186,8 +186,7 @@ TEST(Analysis, SolvedPositionsRepresentAll) {
 
 // A rigid turn of the material inside the rim is what the rotation measures; the paper's wheel turns little.
 TEST(Analysis, DeformationOfThePapersWheelIsSmall) {
-  auto model = paper_model(14, 192);
-  model.dilatation = DilatationKind::pointwise;
+  const auto model = paper_model(14, 192);
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
   const auto psi = paper_holes(model.grid);
@@ -324,7 +323,6 @@ TEST(Analysis, WorkOfTheLoadIsTheStrainEnergy) {
 /// Hertz: the patch of a disc grows with the root of the load, and so does the peak pressure.
 TEST(Analysis, PatchAndPressureOfAThickRingGrowAsHertzSays) {
   RollingModel<2> model = coarse_model(1);
-  model.dilatation = DilatationKind::pointwise;
   model.tread.levels = 4;
   const auto [problem, state, a] = analyzed(model, no_holes);
   const std::vector<double> loads{0.25 * model.load, model.load};

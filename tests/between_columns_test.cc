@@ -206,7 +206,6 @@ TEST(BetweenColumns, AUniformRingTendsToBeUniform) {
   const auto values = [](int refinement) {
     auto model = model_with(8 * refinement, 1, refinement);
     model.grid.cells = {14 * refinement, 12 * refinement};
-    model.dilatation = DilatationKind::pointwise;
     const auto problem = RollingProblem<2>::create(model);
     EXPECT_TRUE(problem);
     LevelSet<2> solid{Lattice<2>(model.grid, 2), {}};

@@ -247,9 +247,8 @@ double product(const Matrix& a, const Matrix& b) {
 TEST(Friction, TheAdjointIsTheTransposeOfTheTangent) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (auto model :
+  for (const auto& model :
        {with_friction(paper_model(14, 192)), braked(paper_model(14, 192)), driven(paper_model(14, 192))}) {
-    model.dilatation = DilatationKind::pointwise;
     const auto problem = RollingProblem<2>::create(model);
     ASSERT_TRUE(problem);
     const auto s = problem->solve(paper_holes(model.grid));

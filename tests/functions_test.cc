@@ -172,7 +172,6 @@ TEST(Functions, TheLoadCasesOfAPointFollowEachOtherRoundTheTurn) {
 // it.
 TEST(Functions, TheStrainEnergyAsAnIntegralIsTheStrainEnergy) {
   for (auto model : {paper_model(14, 192), lopsided_model()}) {
-    model.dilatation = DilatationKind::pointwise;
     model.ghost.xi = 1e-9;
     model.cut_points = 4;
     const auto problem = RollingProblem<2>::create(model);

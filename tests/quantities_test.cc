@@ -313,7 +313,6 @@ TEST(Quantities, SymmetricWheelNeedsHalfOfThePositions) {
 /// derivative to the shape needs no adjoint; J_e and alpha have their own.
 TEST(Quantities, TheTravelsDerivativeFollowsFromTheEnergys) {
   auto model = coarse_model();
-  model.dilatation = DilatationKind::pointwise;
   model.contact.theta_nitsche = 1;
   model.contact.gamma_0 = 1e5;
   model.ghost.xi = 1e-9;

@@ -88,7 +88,6 @@ TEST(Ring, ErrorsOfNitscheAndPenaltyAreTheListedOnes) {
     SCOPED_TRACE(::testing::Message() << (listed.method == nitsche ? "nitsche " : "penalty ")
                                       << listed.gamma_0 << ", " << listed.angular_cells << " cells");
     auto model = ring_model(listed.angular_cells);
-    model.dilatation = DilatationKind::pointwise;
     const double length = model.grid.outer_radius * model.grid.cell_size()[1];
     const ElasticElement<2> outermost(model.grid, 2, {model.grid.cells[0] - 1, 0},
                                       model.materials.at_tread());

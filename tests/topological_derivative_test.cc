@@ -200,9 +200,7 @@ double order(double expected, const std::vector<double>& radii, const std::vecto
 /// On a wheel without symmetry, with friction, torque and body force. The deviation is of second order in the
 /// radius until the hole is but two cells wide.
 TEST(TopologicalDerivative, IsTheLimitOfFiniteHoles) {
-  auto model = lopsided_model(28, 384);
-  model.dilatation = DilatationKind::pointwise;
-  const auto problem = RollingProblem<2>::create(model);
+  const auto problem = RollingProblem<2>::create(lopsided_model(28, 384));
   ASSERT_TRUE(problem) << problem.failure().detail;
   const auto functions = some_functions(*problem);
   const Place place{0.2731, 0.68};

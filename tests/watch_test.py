@@ -18,6 +18,7 @@ import support
 
 support.skip_without_browser()
 
+from selenium.common.exceptions import StaleElementReferenceException
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -142,7 +143,11 @@ class PageTest(unittest.TestCase):
         return self.browser.find_element(By.ID, name)
 
     def text(self, name):
-        return self.element(name).text
+        while True:
+            try:
+                return self.element(name).text
+            except StaleElementReferenceException:
+                pass  # the page has written its numbers anew in between
 
     def type(self, name, text):
         self.element(name).send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)

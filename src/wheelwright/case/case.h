@@ -271,7 +271,7 @@ struct Grid {
   int angular_cells = 384;  ///< around the full ring
   int axial_cells = 4;      ///< along the axle; in 3D
   int degree = 2;           ///< of the displacement
-  DilatationKind dilatation = DilatationKind::projected;
+  DilatationKind dilatation = DilatationKind::automatic;
   std::optional<int> level_set_degree;  ///< absent: 2, in 3D 1
   std::optional<int>
       tread_levels;  ///< halvings of the cells at the tread; absent: as many as the contact needs

@@ -58,11 +58,10 @@ const Section<Grid>& grid_section() {
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},
            .meaning = "polynomial degree of the displacement"},
           {.name = "dilatation",
-           .field = choice<&Grid::dilatation>({"projected", "pointwise"}),
+           .field = choice<&Grid::dilatation>({"auto", "projected", "pointwise"}),
            .meaning =
-               "projected: with degree = 2, the volume's change is that of an element that does not lock, "
-               "whatever the Poisson's ratio; pointwise: that of the displacement, for comparisons with "
-               "programs that have no such element"},
+               "projected: with degree = 2, the element does not lock at any Poisson's ratio; pointwise: "
+               "the element of other programs; auto: projected above a Poisson's ratio of 0.485"},
           {.name = "level_set_degree",
            .field = OptionalIntegerField<Grid>{&Grid::level_set_degree, between(1, 2), "2; in 3D 1", "auto"},
            .meaning = "polynomial degree of the level set"},

@@ -4,6 +4,7 @@ namespace wheelwright {
 
 /// The dilatation on which lambda works in elements of degree 2.
 enum class DilatationKind {
+  automatic,  ///< projected in nearly incompressible material
   /// lambda + 0.6 mu on div u projected on the linear functions of a cell, which does not lock for any nu
   /// below 1/2, and -0.6 mu on div u.
   projected,

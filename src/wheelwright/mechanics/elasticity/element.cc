@@ -136,7 +136,9 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
       plane_diameter_ = std::max(plane_diameter_, norm<2>({a[0] - b[0], a[1] - b[1]}));
   if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
   if (const Material* material = law.isotropic();
-      material && dilatation == DilatationKind::projected && degree == 2) {
+      material && degree == 2 &&
+      (dilatation == DilatationKind::projected ||
+       (dilatation == DilatationKind::automatic && material->nearly_incompressible()))) {
     projected_lambda_ = material->lambda() - pointwise_lambda * material->mu();
     projected_share_ = projected_lambda_ / (material->lambda() + 2 * material->mu() / dim);
     dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2));

@@ -35,7 +35,7 @@ class ElasticElement {
   /// `cell` is a position on the grid; its azimuthal part does not matter. The dilatation is projected only
   /// if the degree is 2 and the law isotropic.
   ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
-                 const MaterialLaw<dim>& law, DilatationKind dilatation = DilatationKind::projected);
+                 const MaterialLaw<dim>& law, DilatationKind dilatation = DilatationKind::automatic);
 
   int degree() const { return degree_; }
   int n_nodes() const { return nodes_per_cell<dim>(degree_); }

@@ -18,7 +18,7 @@ class ElementTable {
  public:
   ElementTable(const PolarGrid<dim>& grid, int degree, const Materials<dim>& materials,
                const GhostPenalty& ghost, CellStiffness<dim>* bulk = cell_stiffness<dim>,
-               SideFaces sides = SideFaces::free, DilatationKind dilatation = DilatationKind::projected);
+               SideFaces sides = SideFaces::free, DilatationKind dilatation = DilatationKind::automatic);
 
   const PolarGrid<dim>& grid() const { return grid_; }
   int degree() const { return degree_; }

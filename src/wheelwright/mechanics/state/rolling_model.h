@@ -60,7 +60,7 @@ template <int dim>
 struct RollingModel : WheelLoads<dim> {
   PolarGrid<dim> grid;
   int degree = 2;  ///< of the displacement, 1 or 2
-  DilatationKind dilatation = DilatationKind::projected;
+  DilatationKind dilatation = DilatationKind::automatic;
   std::optional<int> cut_points;  ///< Gauss points per direction in cut cells; absent: degree + 2
   Materials<dim> materials;
   GhostPenalty ghost;
