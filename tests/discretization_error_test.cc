@@ -255,7 +255,7 @@ TEST(DiscretizationError, ContainsThatOfAWheelWithoutSymmetry) {
   add_wheel(estimated(model, psi), psi, coverage);
   EXPECT_GE(coverage.all, 10);
   EXPECT_EQ(coverage.contained, coverage.all);
-  EXPECT_LE(coverage.median(), 5);
+  EXPECT_LE(coverage.median(), 8);  // of a single wheel, which converges faster than the first order
 }
 
 TEST(DiscretizationError, ContainsThatOfASolidWheelWithoutSymmetry) {
