@@ -113,11 +113,11 @@ def steps(page):
     def paint():
         page.pause()
         page.stroke("paint", (0.6, 0.97), (0.995, 0.1))
-        page.obeyed("material painted")
+        page.obeyed("material added along a line")
 
     def undo():
         page.element("undo").click()
-        page.obeyed("undid: material painted")
+        page.obeyed("undid: material added along a line")
 
     def even():
         page.type("even-number", "5")
