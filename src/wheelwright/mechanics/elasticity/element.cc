@@ -284,14 +284,16 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>
   const int n = element.n_dofs();
   Matrix k(n, n);
   auto lame = lame_constants(law);
-  const bool projects = element.projects_dilatation();
-  if (projects) lame->lambda -= element.projected_lambda();  // added below
-  DilatationMoments<dim> moments(projects ? n : 0);
+  std::optional<DilatationMoments<dim>> moments;
+  if (element.projects_dilatation()) {
+    lame->lambda -= element.projected_lambda();  // added below
+    moments.emplace(n);
+  }
   OnDofs<dim> stresses;
   for (const auto& q : points) {
     const auto point = element.with_own_strain(q.xi);
     const double weight = q.weight * point.determinant;
-    if (projects) moments.add(element, point, weight);
+    if (moments) moments->add(element, point, weight);
     if (lame)
       weighted_stresses<dim>(*lame, point.strain, n, weight, stresses);
     else
@@ -303,9 +305,9 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>
         for (int i = j; i < n; ++i) column[i] += point.strain[s][i] * value;
       }
   }
-  if (projects)
-    multiply(element.projected_lambda(), moments.of_dofs, Op::transpose, moments.coefficients(), Op::none, 1,
-             k);
+  if (moments)
+    multiply(element.projected_lambda(), moments->of_dofs, Op::transpose, moments->coefficients(), Op::none,
+             1, k);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < j; ++i) k(i, j) = k(j, i);
   return k;
