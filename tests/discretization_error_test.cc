@@ -111,7 +111,7 @@ TEST(FinerGrid, HasTheSameWheel) {
   }
   EXPECT_NEAR(finer.tread.rows * finer.grid.cell_size()[0], model.tread.rows * model.grid.cell_size()[0],
               1e-15);
-  EXPECT_NEAR(most_unknowns(model), 2.0 * 29 * 384, 1e-9);
+  EXPECT_NEAR(dof_bound(model), 2.0 * 29 * 384, 1e-9);
 }
 
 RollingModel<3> solid_model(std::array<int, 3> cells) {
@@ -273,7 +273,7 @@ template <int dim>
 void add_random_wheel(const Case& c, Coverage& coverage) {
   constexpr double most = dim == 2 ? 5e5 : 1.5e5;
   const auto model = rolling_model<dim>(c);
-  if (most_unknowns(on_finer_grid(on_finer_grid(model))) > most || !make_solver(model)) return;
+  if (dof_bound(on_finer_grid(on_finer_grid(model))) > most || !make_solver(model)) return;
   const LevelSet<dim> psi = initial_shape<dim>(c);
   const auto of = estimated(model, psi);
   if (of.wheel.loaded && of.wheel.loaded->summary.deformation.travel < 0.3) add_wheel(of, psi, coverage);

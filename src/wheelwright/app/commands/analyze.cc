@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <locale>
-#include <sstream>
 
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/load_list.h"
+#include "wheelwright/app/number_list.h"
 #include "wheelwright/app/output_folder.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
@@ -55,10 +54,6 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   return report;
 }
 
-std::string why(const Failure& failure) {
-  return fmt::format("on the finer grid: {}: {}", to_string(failure.reason), failure.detail);
-}
-
 /// The analysis under the same loads on the next finer grid, or why there is none.
 template <int dim>
 Expected<FinerReport, std::string> finer_report(const Case& c, const std::vector<double>& loads,
@@ -67,7 +62,7 @@ Expected<FinerReport, std::string> finer_report(const Case& c, const std::vector
   if (!finer) return finer.failure();
   const StateSolver<dim>& on_finer = *finer->solver;
   const auto states = on_finer.states(finer->shape, on_finer.all_positions(), print_contact_progress());
-  if (!states) return why(states.failure());
+  if (!states) return why_not_on_finer_grid(states.failure());
   return FinerReport{rolling_analysis(on_finer, **states), under_loads<dim>(**states, loads),
                      finer->refinement};
 }
@@ -102,22 +97,17 @@ std::string check_loads(const std::string& text) {
 }
 
 /// "0.5%" or "0.005", between 0 and 1.
-std::optional<double> parse_accuracy(const std::string& text) {
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  double value;
-  if (!(stream >> value)) return {};
-  std::string rest;
-  std::getline(stream, rest);
-  if (rest == "%")
-    value /= 100;
-  else if (!rest.empty())
-    return {};
+std::optional<double> parse_accuracy(std::string_view text) {
+  const bool is_percent = text.ends_with('%');
+  if (is_percent) text.remove_suffix(1);
+  const auto numbers = parse_number_list(text);
+  if (!numbers || numbers->size() != 1) return {};
+  const double value = numbers->front() / (is_percent ? 100 : 1);
   return value > 0 && value < 1 ? std::optional(value) : std::nullopt;
 }
 
 std::string check_accuracy(const std::string& text) {
-  return parse_accuracy(text) ? "" : "must be a part of each number, as in 0.5% or 0.005";
+  return parse_accuracy(text) ? "" : "must be a fraction of each number, as in 0.5% or 0.005";
 }
 
 class AnalyzeCommand : public Subcommand {

@@ -15,7 +15,7 @@ std::string accuracy_table(const AccurateNumbers& numbers) {
     labels.push_back(fmt::format("{} [{}]", number.label, number.shown.name));
     width = std::max(width, labels.back().size());
   }
-  std::string table = fmt::format("with errors of at most {:.3g} %, where nothing else is said, on {}\n",
+  std::string table = fmt::format("errors are at most {:.3g} % unless a reason is given, on {}\n",
                                   100 * numbers.accuracy, numbers.grid);
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const auto& [label, key, shown, value, error, reason] = numbers.numbers[k];

@@ -16,10 +16,10 @@ std::vector<double> discretization_errors(std::span<const double> values,
   for (std::size_t i = 0; i < values.size(); ++i)
     squares += (values[i] - on_finer_grid[i]) * (values[i] - on_finer_grid[i]);
   const double usual = std::sqrt(squares / static_cast<double>(values.size()));
-  const double least = discretization_error(usual, 0, refinement, how);
+  const double minimum = discretization_error(usual, 0, refinement, how);
   std::vector<double> errors;
   for (std::size_t i = 0; i < values.size(); ++i)
-    errors.push_back(std::max(least, discretization_error(values[i], on_finer_grid[i], refinement, how)));
+    errors.push_back(std::max(minimum, discretization_error(values[i], on_finer_grid[i], refinement, how)));
   return errors;
 }
 

@@ -37,6 +37,6 @@ std::optional<double> observed_order(double coarse, double middle, double fine, 
 
 /// Below this order a number does not visibly converge: peaks at corners, where the exact stress has no
 /// bound, grow with every finer grid.
-inline constexpr double least_order = 0.25;
+inline constexpr double minimum_order = 0.25;
 
 }  // namespace wheelwright

@@ -36,9 +36,10 @@ RollingModel<dim> on_finer_grid(RollingModel<dim> model) {
 
 template <int dim>
 double refinement(const PolarGrid<dim>& grid, const PolarGrid<dim>& finer) {
-  double least = finer.cells[0] / static_cast<double>(grid.cells[0]);
-  for (int d = 1; d < dim; ++d) least = std::min(least, finer.cells[d] / static_cast<double>(grid.cells[d]));
-  return least;
+  double minimum = finer.cells[0] / static_cast<double>(grid.cells[0]);
+  for (int d = 1; d < dim; ++d)
+    minimum = std::min(minimum, finer.cells[d] / static_cast<double>(grid.cells[d]));
+  return minimum;
 }
 
 template <int dim>
@@ -47,7 +48,7 @@ LevelSet<dim> on_grid(const LevelSet<dim>& psi, const PolarGrid<dim>& grid) {
 }
 
 template <int dim>
-double most_unknowns(const RollingModel<dim>& model) {
+double dof_bound(const RollingModel<dim>& model) {
   double nodes = static_cast<double>(model.degree) * model.grid.ring_columns();
   for (int d = 0; d < dim; ++d)
     if (d != 1) nodes *= model.degree * model.grid.cells[d] + 1;
@@ -58,7 +59,7 @@ double most_unknowns(const RollingModel<dim>& model) {
   template decltype(on_finer_grid<dim>) on_finer_grid<dim>; \
   template decltype(refinement<dim>) refinement<dim>;       \
   template decltype(on_grid<dim>) on_grid<dim>;             \
-  template decltype(most_unknowns<dim>) most_unknowns<dim>;
+  template decltype(dof_bound<dim>) dof_bound<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -12,7 +12,7 @@ namespace wheelwright {
 template <int dim>
 RollingModel<dim> on_finer_grid(RollingModel<dim> model);
 
-/// The factor by which the cells of the finer grid are smaller, in the direction in which it is least.
+/// The factor by which the cells of the finer grid are smaller, in the direction in which it is smallest.
 template <int dim>
 double refinement(const PolarGrid<dim>& grid, const PolarGrid<dim>& finer);
 
@@ -23,6 +23,6 @@ LevelSet<dim> on_grid(const LevelSet<dim>& psi, const PolarGrid<dim>& grid);
 
 /// The number of unknowns of the displacement in the full ring if every cell held material.
 template <int dim>
-double most_unknowns(const RollingModel<dim>& model);
+double dof_bound(const RollingModel<dim>& model);
 
 }  // namespace wheelwright

@@ -13,11 +13,12 @@
 #include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
-namespace {
 
-std::string why(const Failure& failure) {
-  return fmt::format("on the finer grid: {}: {}", to_string(failure.reason), failure.detail);
+std::string why_not_on_finer_grid(const Failure& failure) {
+  return "on the finer grid: " + to_string(failure);
 }
+
+namespace {
 
 /// The case with the grid of a model, for the estimate of the memory.
 template <int dim>
@@ -32,7 +33,7 @@ Case with_grid_of(Case c, const RollingModel<dim>& model) {
 /// Why a finer grid costs too much; empty if it does not.
 template <int dim>
 std::string excess(const Case& c, const RollingModel<dim>& finer) {
-  const double unknowns = most_unknowns(finer), most = most_unknowns_of_finer_grid<dim>;
+  const double unknowns = dof_bound(finer), most = max_unknowns_of_finer_grid<dim>;
   if (unknowns > most)
     return fmt::format("the finer grid would have {:.2g} unknowns, more than {:.2g}", unknowns, most);
   const double needed = estimated_memory(problem_size(with_grid_of(c, finer)));
@@ -60,7 +61,7 @@ Expected<FinerShape<dim>, std::string> finer_shape(const Case& c, const StateSol
   const RollingModel<dim> model = on_finer_grid(solver.model());
   if (std::string text = excess(c, model); !text.empty()) return text;
   auto finer = make_solver(model);
-  if (!finer) return why(finer.failure());
+  if (!finer) return why_not_on_finer_grid(finer.failure());
   return FinerShape<dim>{*std::move(finer), on_grid(psi, model.grid),
                          refinement(solver.model().grid, model.grid)};
 }
@@ -68,7 +69,7 @@ Expected<FinerShape<dim>, std::string> finer_shape(const Case& c, const StateSol
 template <int dim>
 KnownFinerWheel<dim> finer_wheel(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
                                  const SolvedStates<dim>& states) {
-  if (!states) return why(states.failure());
+  if (!states) return why_not_on_finer_grid(states.failure());
   const StateSolver<dim>& solver = *finer.solver;
   const double fraction = volume_fraction(solver.model().grid, material_measure(finer.shape));
   return FinerWheel<dim>{
@@ -79,18 +80,18 @@ KnownFinerWheel<dim> finer_wheel(const Case& c, const LoadCases<dim>& cases, con
 template <int dim>
 KnownNumber objective_of(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
                          const SolvedStates<dim>& states) {
-  if (!states) return why(states.failure());
+  if (!states) return why_not_on_finer_grid(states.failure());
   if (c.objective.annulus_matches_dual)
     return std::string("a weight of the objective is found on the grid of the run");
   const auto functions = shape_functions(c, *finer.solver);
-  if (!functions) return why(functions.failure());
+  if (!functions) return why_not_on_finer_grid(functions.failure());
   double sum = 0;
   for (const WeightedFunctional<dim>& term : functions->front().terms) {
     const auto state =
         term.load_case == 0
             ? states
             : (*states)->under(with_loads((*states)->model(), cases[term.load_case].model), Interrupt());
-    if (!state) return why(state.failure());
+    if (!state) return why_not_on_finer_grid(state.failure());
     sum += value_of(term, finer, **state);
   }
   if (!std::isfinite(sum)) return std::string("it is not finite on the finer grid");

@@ -9,6 +9,9 @@
 
 namespace wheelwright {
 
+/// "on the finer grid: REASON: DETAIL".
+std::string why_not_on_finer_grid(const Failure& failure);
+
 /// A shape on a finer grid.
 template <int dim>
 struct FinerShape {
@@ -17,9 +20,9 @@ struct FinerShape {
   double refinement;  ///< the factor by which its cells are smaller
 };
 
-/// The most unknowns of a finer grid.
+/// The maximum number of unknowns of a finer grid.
 template <int dim>
-inline constexpr double most_unknowns_of_finer_grid = dim == 2 ? 5e6 : 1e6;
+inline constexpr double max_unknowns_of_finer_grid = dim == 2 ? 5e6 : 1e6;
 
 /// A shape of the solver's grid on the next finer one (quantities/analysis/finer_grid.h); or in one line why
 /// not: its unknowns are too many, the memory too small, or the solver refuses it.

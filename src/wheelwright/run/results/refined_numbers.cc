@@ -42,7 +42,7 @@ std::optional<double> last_order(const WheelNumber<dim>& number, const Refinemen
 template <int dim>
 std::string why_not_accurate(const WheelNumber<dim>& number, const Refinement<dim>& refined) {
   const auto order = last_order(number, refined);
-  if (!order || *order >= least_order) return refined.end;
+  if (!order || *order >= minimum_order) return refined.end;
   return fmt::format(
       "does not converge: its differences from grid to grid do not fall, as at corners and at edges of the "
       "contact; the largest stress is {}",
