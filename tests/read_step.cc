@@ -27,7 +27,7 @@ int main(int, char** argv) {
   reader.FileUnits(lengths, angles, solid_angles);
   GProp_GProps volume;
   BRepGProp::VolumeProperties(shape, volume, 1e-9);
-  GProp_GProps usual;  // by the rule that programs use unless they are told otherwise
+  GProp_GProps usual;  // by the rule that programs use by default
   BRepGProp::VolumeProperties(shape, usual);
   std::map<std::string, int> faces;
   for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {

@@ -9,7 +9,7 @@ SCRIPT_IMPORT = 'import Gumshoe from "./gumshoe-patched.js";'
 
 
 def replace(file, old, new):
-    """A file that no longer has what is replaced is left alone: it is complete, or the test of the site fails."""
+    """Leaves a file as it is if it does not contain the text to replace; the test of the site fails if that matters."""
     text = file.read_text(encoding="utf-8")
     file.write_text(text.replace(old, new), encoding="utf-8")
 

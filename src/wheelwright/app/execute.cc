@@ -24,7 +24,8 @@ int execute(Run<dim>& run, Signals& signals, const Reporting& reporting) {
   return report_result(run.execute(commands), run.folder(), signals);
 }
 
-/// Of a run that did not begin; events leave standard output to lines of JSON.
+/// Returns where to print the results of a run that did not begin. With events, standard output is for lines
+/// of JSON only.
 std::FILE* stream_of_results(const Reporting& reporting) { return reporting.events ? stderr : stdout; }
 
 }  // namespace

@@ -21,7 +21,7 @@ enum ExitCode {
   exit_terminated = 143,
 };
 
-/// What an exit code means, in a line; empty for other numbers.
+/// Says in one line what an exit code means. Empty for other numbers.
 std::string meaning_of_exit_code(int code);
 
 /// All of them with their meaning, for --help.

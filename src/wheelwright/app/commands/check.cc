@@ -60,7 +60,7 @@ class CheckCommand : public Subcommand {
     return checked;
   }
 
-  /// What only the drawn shape shows.
+  /// Finds the problems that only the drawn shape shows.
   std::vector<Diagnostic> problems_of_initial_shape(const Case& c) const {
     std::vector<Diagnostic> problems;
     const auto add = [&](const std::string& problem) {

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the documents of this program are if it was installed. They moved with it.
+/// The folder of the installed documents. It lies beside the program, so that an installation can be moved.
 fs::path documents_folder() {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   return (program.parent_path() / WHEELWRIGHT_DOCUMENTS_FROM_PROGRAM).lexically_normal();

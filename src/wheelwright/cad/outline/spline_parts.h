@@ -7,7 +7,7 @@
 namespace wheelwright::cad {
 
 /// Number of points of the Gauss rule by which OpenCASCADE, and programs built on it, integrate along an edge
-/// of this many cubics unless they are told otherwise: eight per cubic, at most 61.
+/// of this many cubics by default: eight per cubic, at most 61.
 int usual_points(int cubics);
 
 /// How far the end of a part of a spline lies from where its derivative leads from its start by the usual
