@@ -124,14 +124,35 @@ class TheList(unittest.TestCase):
         for old in ("a.b(1, 2)", "f({c, d})"):
             self.assertEqual(kept_site({"file": "a", "old": old, "new": "3"}, text).begin, text.index(old))
 
+    def test_code_that_cannot_stand_in_braces_is_an_error(self):
+        for old in ("double y = 0;", "const auto z = f(1);", "g(y);", "LevelSet<dim> result = psi;"):
+            with self.assertRaises(StaleList):
+                kept_site({"file": "a", "old": old, "new": ""},
+                          "double y = 0; const auto z = f(1); LevelSet<dim> result = psi; x = g(y);")
+        self.assertTrue(kept_site({"file": "a", "old": "g(y);", "new": ""}, "double y = 0; g(y);"))
+
+    def test_code_whose_operand_belongs_to_an_operator_beside_it_is_an_error(self):
+        for old, text in (("x += a", "x += a * b;"), ("a + b", "y = a + b * c;"), ("a + b", "y = d - a + b;"),
+                          ("*a / b", "y = d * *a / b;")):
+            with self.assertRaises(StaleList):
+                kept_site({"file": "a", "old": old, "new": "1"}, text)
+        for old, text in (("a * b", "y = d - a * b + c;"), ("f<dim>(a, b)", "y = -f<dim>(a, b);"), ("a + b", "f(a + b, c);"),
+                          ("-a * b", "y = -a * b;")):
+            self.assertTrue(kept_site({"file": "a", "old": old, "new": "1"}, text))
+
+    def test_half_of_a_choice_is_an_error(self):
+        for old in ("a ? b", "b : c"):
+            with self.assertRaises(StaleList):
+                kept_site({"file": "a", "old": old, "new": "1"}, "x = f(a ? b : c);")
+
     def test_code_that_stands_twice_is_told_apart_by_what_is_around_it(self):
         text = "x = v[i] - v[i] * 2;"
         site = kept_site({"file": "a", "old": "v[i]", "new": "0", "in": "v[i] * 2"}, text)
         self.assertEqual((site.begin, site.end), (11, 15))
 
     def test_lines_may_be_broken_otherwise(self):
-        site = kept_site({"file": "a", "old": "a + b;", "new": ""}, "x =\n  a +\n  b;")
-        self.assertEqual((site.begin, site.end), (6, 14))
+        site = kept_site({"file": "a", "old": "a + b;", "new": ""}, "{\n  a +\n  b;\n}")
+        self.assertEqual((site.begin, site.end), (4, 12))
 
 
 if __name__ == "__main__":

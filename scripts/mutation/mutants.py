@@ -47,12 +47,59 @@ def pieces(code, text):
 def is_one_expression(code):
     """Whether brackets are closed and nothing but operands and operators stands outside them, as far as is told
     without a compiler."""
-    depth = 0
+    depth = choices = 0
     for token in tokens_of(code):
         depth += (token.text in "([{") - (token.text in ")]}")
         if depth < 0 or (depth == 0 and token.text in (",", ";", "if", "return")):
             return False
-    return depth == 0 and not code.startswith((".", "{")) and code[-1] not in "=+-*/%<>&|!?:.,"
+        choices += depth == 0 and {"?": 1, ":": -1}.get(token.text, 0)
+    return depth == 0 and choices == 0 and not code.startswith((".", "{")) and code[-1] not in "=+-*/%<>&|!?:.,"
+
+
+DECLARATION = re.compile(r"(constexpr|const|auto|static|using)\b|(?!return|delete|throw)[\w:]+(<[^;=()]*>)?[&*]? \w+( =|;|\{)")
+
+
+def is_one_statement(code, before):
+    """Whether code that ends in a semicolon can stand in braces of its own: it declares nothing, and no longer statement
+    ends with it."""
+    return before.rstrip()[-1:] in ("", ";", "{", "}", ")", ":") and not DECLARATION.match(code)
+
+
+OPERATORS = ("= += -= *= /= %= ? :", "||", "&&", "|", "^", "&", "== !=", "< > <= >=", "<< >>", "+ -", "* / %")
+PRECEDENCE = {operator: level for level, operators in enumerate(OPERATORS) for operator in operators.split()}
+UNARY = len(OPERATORS)
+NO_OPERATOR = UNARY + 1
+
+
+def is_operand(token):
+    """Whether an operand ends with the token: what follows is a binary operator."""
+    return token.is_name or token.is_number or token.text in ")]}"
+
+
+def weakest_operator(code):
+    """The precedence of the binary operator of an expression that is applied last. Spaces tell a comparison from the
+    arguments of a template."""
+    depth, weakest, before = 0, NO_OPERATOR, None
+    for token in tokens_of(code):
+        is_template = token.text in "<>" and " " not in code[token.begin - 1:token.end + 1]
+        depth -= token.text in ")]}" or (is_template and token.text == ">")
+        if depth == 0 and before and is_operand(before) and not is_template:
+            weakest = min(weakest, PRECEDENCE.get(token.text, NO_OPERATOR))
+        depth += token.text in "([{" or (is_template and token.text == "<")
+        before = token
+    return weakest
+
+
+def loses_operand(code, before, after):
+    """Whether an operator beside an expression takes one of its operands, so that the expression is none in itself."""
+    weakest, last, following = weakest_operator(code), tokens_of(before)[-2:], tokens_of(after)[:1]
+    left = right = -1
+    if len(last) == 2:
+        is_unary = last[1].text in "-!*&" and not is_operand(last[0])
+        left = UNARY if is_unary else PRECEDENCE.get(last[1].text, -1)
+    if following:
+        right = PRECEDENCE.get(following[0].text, -1)
+    return weakest < NO_OPERATOR and (0 < left and weakest <= left or weakest < right)
 
 
 def declares(code, before):
@@ -70,9 +117,13 @@ def kept_site(entry, text):
         raise StaleList(f"{entry['file']}: {'found more than once' if inner else 'not found'}: {old}")
     begin, end = (outer[0].start() + offset for offset in inner[0].span())
     if old.endswith(";"):
+        if not is_one_statement(old, text[:begin]):
+            raise StaleList(f"{entry['file']}: no statement that can stand in braces: {old}")
         guarded = f"if ({NAMESPACE}broken(@)) {{ {new} }} else {{ {text[begin:end]} }}"
     else:
         before = text[:begin]
+        if loses_operand(old, before[-200:], text[end:end + 20]):
+            raise StaleList(f"{entry['file']}: an operator beside it takes one of its operands: {old}")
         if not (is_one_expression(old) and is_one_expression(new)) or before.endswith((".", "->")) or declares(old, before):
             raise StaleList(f"{entry['file']}: no whole expression: {old}")
         guarded = f"({NAMESPACE}broken(@) ? ({new}) : ({text[begin:end]}))"
