@@ -220,6 +220,25 @@ TEST(ShapeOfACase, HasItsHole) {
   expect_the_hole<3>(initial_shape<3>(uneven_case()));
 }
 
+/// Without a phase the first hole lies in the middle of its share of the wheel: with as many holes as
+/// sectors, in the middle of a sector.
+TEST(ShapeOfACase, HasHolesAtHalfTheirSpacingByDefault) {
+  Case c;
+  c.wheel.dimension = 3;
+  c.holes.rings = {{.count = c.wheel.sectors, .center_radius = 0.27, .radius = 0.01},
+                   {.count = 2 * c.wheel.sectors, .center_radius = 0.3, .radius = 0.01, .phase = 0.0}};
+  c.holes.spheres = {{.count = 2 * c.wheel.sectors, .center_radius = 0.24, .radius = 0.01}};
+  const std::vector<Circle> circles = sector_holes(c);
+  const std::vector<Sphere> spheres = sector_spheres(c);
+  ASSERT_EQ(circles.size(), 3u);
+  EXPECT_DOUBLE_EQ(circles[0].centre_azimuth, 0.5 * sector_angle(c));
+  EXPECT_EQ(circles[1].centre_azimuth, 0);
+  EXPECT_DOUBLE_EQ(circles[2].centre_azimuth, 0.5 * sector_angle(c));
+  ASSERT_EQ(spheres.size(), 2u);
+  EXPECT_DOUBLE_EQ(spheres[0].centre_azimuth, 0.25 * sector_angle(c));
+  EXPECT_DOUBLE_EQ(spheres[1].centre_azimuth, 0.75 * sector_angle(c));
+}
+
 TEST(ObjectiveOfACase, IsTheWeightedSumOfItsFunctionals) {
   Case c = uneven_case();
   c.objective.strain_energy = 2;
