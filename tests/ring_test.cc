@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "tests/support.h"
+#include "wheelwright/linalg/lu_factor.h"
 
 namespace wheelwright {
 namespace {
@@ -270,7 +271,8 @@ TEST(Ring, BondedRing_PlaneStress_MatchesLame) {
 
 /// A free inner edge at 0.20 m, a level set that crosses the cells of one row at this fraction of their
 /// height; the material covers `radial_cells` cells, the cut ones included.
-PressedRing free_ring(int radial_cells, double fraction, const Material& material = {200e6, 0.48}) {
+PressedRing free_ring(int radial_cells, double fraction,
+                      const Materials<2>& material = Material{200e6, 0.48}) {
   auto model = pressed_model(radial_cells);
   model.materials = material;
   const double height = 0.14 / (radial_cells - fraction);
@@ -291,6 +293,68 @@ TEST(Ring, FreeRing_UnderPressure_MatchesLame) {
   }
 }
 
+/// Lame's solution u = A r + B / r of a ring of two layers in plane strain under the pressure at its tread;
+/// bonded, or free at the inner radius: the displacement of the tread.
+double displacement_of_two_layers(double inner, double interface, double outer, const Material& in,
+                                  const Material& out, bool is_bonded) {
+  // sigma_rr = 2 (lambda + mu) A - 2 mu B / r^2.
+  const auto stress = [](const Material& m, double r) {
+    return std::array{2 * (m.lambda() + m.mu()), -2 * m.mu() / (r * r)};
+  };
+  Matrix a(4, 4), b(4, 1);
+  const auto at_rim = is_bonded ? std::array{inner, 1 / inner} : stress(in, inner);
+  const auto below = stress(in, interface), above = stress(out, interface), at_tread = stress(out, outer);
+  for (int k = 0; k < 2; ++k) {
+    a(0, k) = at_rim[k];
+    a(1, k) = k == 0 ? interface : 1 / interface;
+    a(1, 2 + k) = -a(1, k);
+    a(2, k) = below[k];
+    a(2, 2 + k) = -above[k];
+    a(3, 2 + k) = at_tread[k];
+  }
+  b(3, 0) = -pressure;
+  const Matrix x = LuFactor::factor(std::move(a))->solve(std::move(b));
+  return x(2, 0) * outer + x(3, 0) / outer;
+}
+
+Materials<2> two_layers(double interface, const Material& in, const Material& out) {
+  return Materials<2>(std::vector<Materials<2>::Layer>{{interface, std::make_shared<IsotropicLaw<2>>(in)},
+                                                       {0, std::make_shared<IsotropicLaw<2>>(out)}});
+}
+
+/// With the interface in the core, and within the rows that are condensed at the tread, for all contrasts.
+TEST(Ring, LayeredRing_UnderPressure_MatchesLame) {
+  for (const auto& [in, out] : {std::pair{Material{200e6, 0.3}, Material{10e6, 0.45}},
+                                {Material{10e6, 0.4999}, Material{200e6, 0.3}},
+                                {Material{210e9, 0.3}, Material{2e6, 0.49}},
+                                {Material{2e6, 0.49}, Material{210e9, 0.3}}})
+    for (const int line : {8, 15}) {
+      SCOPED_TRACE(::testing::Message() << in.youngs_modulus << " on line " << line);
+      auto model = pressed_model(16);
+      model.tread.rows = 2;
+      const double interface = 0.2 + line * 0.14 / 16;
+      model.materials = two_layers(interface, in, out);
+      const PressedRing ring(model, solid(model.grid));
+      const double exact = displacement_of_two_layers(0.2, interface, 0.34, in, out, true);
+      EXPECT_NEAR(ring.outer_displacement() / exact, 1, 1e-5);
+      EXPECT_NEAR(ring.strain_energy() / (-std::numbers::pi * 0.34 * pressure * exact), 1, 1e-5);
+    }
+}
+
+/// A free inner edge that cuts cells beside the interface, at which the ghost penalty ends.
+TEST(Ring, LayeredRing_WithACutInnerEdge_MatchesLame) {
+  const Material in{200e6, 0.3}, out{10e6, 0.45};
+  for (const double fraction : {0.1, 0.63, 0.9, 1 - 1e-6})
+    for (const int row : {2, 3, 8}) {
+      SCOPED_TRACE(::testing::Message() << fraction << ", " << row);
+      const double height = 0.14 / (16 - fraction), interface = 0.34 - (18 - row) * height;
+      const PressedRing ring = free_ring(16, fraction, two_layers(interface, in, out));
+      const double exact = row == 2 ? displacement_of_two_layers(0.2, 0.2, 0.34, out, out, false)
+                                    : displacement_of_two_layers(0.2, interface, 0.34, in, out, false);
+      EXPECT_NEAR(ring.outer_displacement() / exact, 1, 2e-5);
+    }
+}
+
 /// sigma_rr = A (1 - R_i^2 / r^2) does not depend on nu; u = (1 + nu) / E ((1 - 2 nu) A r + A R_i^2 / r).
 TEST(Ring, FreeRing_NearlyIncompressible_MatchesLame) {
   constexpr double young = 200e6, inner = 0.20, outer = 0.34;
@@ -299,7 +363,7 @@ TEST(Ring, FreeRing_NearlyIncompressible_MatchesLame) {
     for (const double fraction : {0.1, 0.37, 0.63, 0.9, 0.999, 1 - 1e-6}) {
       SCOPED_TRACE(::testing::Message() << nu << ", " << fraction);
       const double moved = (1 + nu) / young * ((1 - 2 * nu) * a * outer + a * inner * inner / outer);
-      const PressedRing ring = free_ring(16, fraction, {young, nu});
+      const PressedRing ring = free_ring(16, fraction, Material{young, nu});
       EXPECT_NEAR(ring.outer_displacement(), moved, 1e-5 * std::abs(moved));
       const double energy = -std::numbers::pi * outer * pressure * moved;
       EXPECT_NEAR(ring.strain_energy(), energy, 1e-5 * energy);
@@ -333,7 +397,7 @@ TEST(Ring, FreeRing_PlaneStress_MatchesLame) {
   constexpr double moved = 0.34 / young * (hoop_outside + nu * pressure);
   for (double fraction : {0.1, 0.63, 0.999}) {
     SCOPED_TRACE(fraction);
-    const PressedRing ring = free_ring(16, fraction, {young, nu, Plane::stress});
+    const PressedRing ring = free_ring(16, fraction, Material{young, nu, Plane::stress});
     EXPECT_NEAR(ring.outer_displacement(), moved, 1e-5 * std::abs(moved));
     EXPECT_NEAR(ring.strain_energy(), -std::numbers::pi * 0.34 * pressure * moved, 1e-5 * 2100);
     EXPECT_LT(ring.hoop_stress_error(-3.05820106e6), 0.01 * 3.06e6);

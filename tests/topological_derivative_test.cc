@@ -265,9 +265,10 @@ TEST(TopologicalDerivative, OfTheShapeAloneIsThatOfTheHole) {
   const auto model = paper_model(14, 192);
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
-  const std::vector<ShapeFunction<2>> functions{{"volume", {{1, std::make_shared<MaterialVolume<2>>()}}},
-                                                {"mass", {{2, std::make_shared<Mass<2>>(1100)}}},
-                                                {"perimeter", {{1, std::make_shared<Perimeter<2>>()}}}};
+  const std::vector<ShapeFunction<2>> functions{
+      {"volume", {{1, std::make_shared<MaterialVolume<2>>()}}},
+      {"mass", {{2, std::make_shared<Mass<2>>(Material{200e6, 0.48, Plane::strain, 1100})}}},
+      {"perimeter", {{1, std::make_shared<Perimeter<2>>()}}}};
   const auto found =
       derivatives(*problem, functions, testing::paper_holes(model.grid), {point_at(model.grid, 0.31, 0.1)});
   EXPECT_EQ(found[0][0], -1);

@@ -37,6 +37,21 @@ struct Wheel {
   bool operator==(const Wheel&) const = default;
 };
 
+/// Whether holes may lie in a layer of the ring.
+enum class LayerHoles { allowed, none };
+
+/// Everything between two radii, of another material than the rest of the ring.
+struct MaterialLayer {
+  std::string name = {};
+  std::optional<double> inner_radius = {};  ///< absent: the rim
+  std::optional<double> outer_radius = {};  ///< absent: the tread
+  double youngs_modulus = 0;                ///< [Pa]
+  double poissons_ratio = 0;
+  std::optional<double> density = {};  ///< [kg/m^3]
+  LayerHoles holes = LayerHoles::allowed;
+  bool operator==(const MaterialLayer&) const = default;
+};
+
 /// One of several loads: the keys of the section [load] that it changes.
 struct CaseLoad {
   std::string name = {};
@@ -408,7 +423,8 @@ struct Vocabulary {
 struct Case {
   std::string title;
   Wheel wheel;
-  Material material;
+  Material material;  ///< of what lies in no layer
+  std::vector<MaterialLayer> layers;
   Load load;
   Contact contact;
   Holes holes;

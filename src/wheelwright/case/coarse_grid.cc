@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 
 namespace wheelwright {
 
@@ -29,7 +30,7 @@ Case on_coarser_grid(Case c, int level) {
     c.grid.tread_levels =
         std::min(*c.grid.tread_levels + level, std::max(most_tread_levels, *c.grid.tread_levels));
   const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
-  const auto [rim, tread] = bands(c);
+  const auto [rim, tread, between] = bands(c);
   c.optimizer.rim_band = widened(rim, cell);
   c.optimizer.tread_band = widened(tread, cell);
   c.optimizer.tolerance = std::max(convergence_tolerance(c), coarse_tolerance);
@@ -46,15 +47,16 @@ bool can_be_halved(const Case& c, int times) {
 bool has_room_between_bands(const Case& c, int level) {
   const Case coarse = on_coarser_grid(c, level);
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, cell = ring / coarse.grid.radial_cells;
-  const auto [rim, tread] = bands(coarse);
+  const auto [rim, tread, between] = bands(coarse);
   return rim.thickness + tread.thickness < ring - cell;
 }
 
-int level_with_few_cells(const Grid& grid, int most_cells) {
+int level_with_few_cells(const Case& c, int most_cells) {
   constexpr int min_rows = 6;
+  const Grid& grid = c.grid;
   int level = 0;
   while ((grid.radial_cells >> level) * (grid.angular_cells >> level) > most_cells &&
-         grid.radial_cells >> (level + 1) >= min_rows)
+         grid.radial_cells >> (level + 1) >= min_rows && layers_fit(c, grid.radial_cells >> (level + 1)))
     ++level;
   return level;
 }

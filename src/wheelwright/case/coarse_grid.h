@@ -22,7 +22,7 @@ bool can_be_halved(const Case& c, int times);
 bool has_room_between_bands(const Case& c, int level);
 
 /// The lowest level whose grid has at most `most_cells` cells along radius and azimuth, but at least 6 rows.
-int level_with_few_cells(const Grid& grid, int most_cells);
+int level_with_few_cells(const Case& c, int most_cells);
 
 /// The grid as text, e.g. "grid 14 x 192".
 std::string grid_text(const Case& c);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
@@ -15,7 +16,8 @@ namespace {
 
 void check_nitsche(const Case& c, Conflicts& found) {
   if (c.contact.method != ContactMethod::nitsche || c.wheel.inner_radius >= c.wheel.outer_radius) return;
-  const double least = minimum_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
+  const Material material = tread_material(c);
+  const double least = minimum_gamma_0(c.contact.theta, material, tread_cell_aspect(c));
   if (c.contact.gamma_0 >= least) return;
   found.push_back(
       {{key_of(&Contact::gamma_0), key_of(&Contact::theta), key_of(&Contact::method),
@@ -23,7 +25,7 @@ void check_nitsche(const Case& c, Conflicts& found) {
         key_of(&Grid::radial_cells)},
        fmt::format("too small for theta = {}, poissons_ratio = {} and cells that are {:.2g} times as long as "
                    "high: the stiffness may not be positive definite",
-                   c.contact.theta, c.material.poissons_ratio, tread_cell_aspect(c)),
+                   c.contact.theta, material.poissons_ratio, tread_cell_aspect(c)),
        fmt::format("use gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 

@@ -6,6 +6,7 @@
 
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/hole_rings.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/load_values.h"
 #include "wheelwright/case/objective_weights.h"
 
@@ -43,9 +44,22 @@ int load_case_of(const Case& c, const Expectation& expectation) {
 
 double load_per_metre(const Case& c) { return c.load.force / c.wheel.width; }
 
-double hertz_half_width(const Case& c) {
-  return 2 * std::sqrt(load_per_metre(c) * c.wheel.outer_radius / (pi * c.material.contact_modulus()));
+namespace {
+
+double hertz_half_width(const Case& c, double modulus) {
+  return 2 * std::sqrt(load_per_metre(c) * c.wheel.outer_radius / (pi * modulus));
 }
+
+}  // namespace
+
+double effective_contact_modulus(const Case& c) {
+  double modulus = tread_material(c).contact_modulus();
+  if (c.layers.empty()) return modulus;
+  for (int pass = 0; pass < 50; ++pass) modulus = contact_modulus(c, hertz_half_width(c, modulus));
+  return modulus;
+}
+
+double hertz_half_width(const Case& c) { return hertz_half_width(c, effective_contact_modulus(c)); }
 
 double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi * hertz_half_width(c)); }
 
@@ -203,9 +217,19 @@ Bands bands(const Case& c) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;
   const double with_annulus = wants_annulus(c) ? annulus_thickness(c) + ring / 28 : 0;
   const double wall = c.optimizer.minimum_wall.value_or(0);
-  return {
+  Bands result{
       .rim = {c.optimizer.rim_band.value_or(std::max(usual, wall)), 1},
       .tread = {c.optimizer.tread_band.value_or(std::max({usual, with_annulus, wall})), tread_rows(c) + 1}};
+  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
+    if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
+    if (inner <= c.wheel.inner_radius + result.rim.thickness)
+      result.rim.thickness = std::max(result.rim.thickness, outer - c.wheel.inner_radius);
+    else if (outer >= c.wheel.outer_radius - result.tread.thickness)
+      result.tread.thickness = std::max(result.tread.thickness, c.wheel.outer_radius - inner);
+    else
+      result.between.push_back({inner, outer});
+  }
+  return result;
 }
 
 HoleRange free_region(const Case& c) {

@@ -27,6 +27,10 @@ int load_case_of(const Case& c, const Expectation& expectation);
 /// P [N/m].
 double load_per_metre(const Case& c);
 
+/// E* of Hertz's theory [Pa]: that of the material, or with layers an estimate (contact_modulus()) at the
+/// half-width to which it leads.
+double effective_contact_modulus(const Case& c);
+
 /// a = 2 sqrt(P R_e / (pi E*)) [m]: half the contact patch of a solid disc under the load, as an estimate for
 /// the wheel.
 double hertz_half_width(const Case& c);

@@ -7,6 +7,7 @@
 
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 
 namespace wheelwright {
 namespace {
@@ -32,8 +33,10 @@ bool fits_annulus(const Case& c, int halvings) {
 
 bool has_fitting_rows(const Case& c) {
   const int levels = c.optimizer.coarse_levels;
-  if (c.grid.radial_cells % (1 << levels) != 0 || !fits_annulus(c, levels)) return false;
-  const auto [rim, tread] = bands(c);
+  if (c.grid.radial_cells % (1 << levels) != 0 || !fits_annulus(c, levels) ||
+      !layers_fit(c, c.grid.radial_cells >> levels))
+    return false;
+  const auto [rim, tread, between] = bands(c);
   return fits_band(c, rim) && fits_band(c, tread) && (levels == 0 || has_room_between_bands(c, levels));
 }
 

@@ -6,6 +6,7 @@
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/fitting_grid.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
 
@@ -72,6 +73,11 @@ void check_coarse_levels(const Case& c, Conflicts& found) {
            fmt::format("the annulus of {:.6g} m is not a whole number of coarse cells of {:.6g} m",
                        annulus_thickness(c), cell),
            fmt::format("use fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
+  if (!layers_fit(c, coarse.grid.radial_cells))
+    refuse({table_of<MaterialLayer>(0), key_of(&Grid::radial_cells)},
+           fmt::format("layers of the material end between the lines of the coarse grid of {} rows",
+                       coarse.grid.radial_cells),
+           "use fewer coarse_levels");
   if (!has_room_between_bands(c, levels))
     refuse(with_ring_shape({}), "on the coarse grid the bands at rim and tread leave no room for holes",
            "use fewer coarse_levels, or a finer grid");

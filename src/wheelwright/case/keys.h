@@ -206,6 +206,7 @@ struct SectionArray {
 const Section<Case>& general_section();
 const Section<Wheel>& wheel_section();
 const Section<Material>& material_section();
+const SectionArray<MaterialLayer>& material_layer_sections();
 const Section<Load>& load_section();
 const SectionArray<CaseLoad>& load_case_sections();
 /// The same with the own keys of this load.
@@ -254,6 +255,7 @@ void for_each_section(Visitor&& visit) {
   visit(general_section());
   visit(wheel_section());
   visit(material_section());
+  visit(material_layer_sections());
   visit(load_section());
   visit(load_case_sections());
   visit(contact_section());

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
@@ -50,7 +51,7 @@ void check_load(const SingleLoad& single, Conflicts& found) {
 double wall_strain(const Case& c, const HoleRing& ring) {
   const double spread = 2 * hertz_half_width(c) + 2 * (c.wheel.outer_radius - ring.center_radius),
                left = 1 - ring.count * ring.radius / (std::numbers::pi * ring.center_radius);
-  return c.load.force / (c.wheel.width * c.material.contact_modulus() * spread * left);
+  return c.load.force / (c.wheel.width * modulus_at(c, ring.center_radius) * spread * left);
 }
 
 /// Reports loads that would crush the walls between holes. This is an estimate, used only if the case has
@@ -109,21 +110,26 @@ void check_friction(const SingleLoad& single, Conflicts& found) {
 }
 
 /// The strain of a rotating ring held only at the rim: the centrifugal force of all its mass over the area at
-/// the rim and the modulus.
+/// the rim and the modulus there.
 double rotation_strain(const Case& c) {
-  const double ratio = c.wheel.inner_radius / c.wheel.outer_radius;
-  return 0.5 * *c.material.density * c.load.speed * c.load.speed * (1 - ratio * ratio) /
-         c.material.contact_modulus();
+  const std::vector<PlacedMaterial> ring = placed_materials(c);
+  const auto square = [&](double radius) { return std::pow(radius / c.wheel.outer_radius, 2); };
+  double mass = 0;  // over the area of the whole disc
+  for (const auto& [inner, outer, material, layer] : ring)
+    mass += *material.density * (square(outer) - square(inner));
+  return 0.5 * mass * c.load.speed * c.load.speed / ring.front().material.contact_modulus();
 }
 
 /// The centrifugal load needs a mass, and must strain the wheel by less than a quarter.
 void check_speed(const SingleLoad& single, Conflicts& found) {
   const Case& c = single.c;
   if (c.load.speed == 0) return;
-  if (!c.material.density) {
+  const auto has_density = [](const PlacedMaterial& placed) { return placed.material.density.has_value(); };
+  if (!std::ranges::all_of(placed_materials(c), has_density)) {
     found.push_back({{single.key(&Load::speed), key_of(&Material::density)},
-                     "the centrifugal load needs a density",
-                     "set material.density"});
+                     "the centrifugal load needs the density of every material",
+                     c.layers.empty() ? "set material.density"
+                                      : "set material.density, and that of each [[material.layer]]"});
     return;
   }
   constexpr double largest = 0.25, advised = 0.05;

@@ -1,12 +1,18 @@
 #include "wheelwright/case/quantity_needs.h"
 
+#include <algorithm>
+
+#include "wheelwright/case/layers.h"
+
 namespace wheelwright {
 namespace {
 
 bool has(const Case& c, Input input) {
   switch (input) {
     case Input::density:
-      return c.material.density.has_value();
+      return std::ranges::all_of(placed_materials(c), [](const PlacedMaterial& placed) {
+        return placed.material.density.has_value();
+      });
     case Input::load:
       return !c.load.travel;
     case Input::travel:
@@ -24,7 +30,7 @@ bool has(const Case& c, Input input) {
 Need need(const SingleLoad& single, Input input) {
   switch (input) {
     case Input::density:
-      return {key_of(&Material::density), "the mass needs a density"};
+      return {key_of(&Material::density), "the mass needs the density of every material"};
     case Input::load:
       return {single.key(&Load::travel), "the travel varies only under a load; here it is prescribed"};
     case Input::travel:

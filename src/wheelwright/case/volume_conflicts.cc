@@ -18,7 +18,7 @@ constexpr double square(double x) { return x * x; }
 /// hole of one cell in every sector.
 void volume_conflicts(const Case& c, Conflicts& found) {
   const Wheel& w = c.wheel;
-  const auto [rim, tread] = bands(c);
+  const auto [rim, tread, between] = bands(c);
   const double low = w.inner_radius + rim.thickness, high = w.outer_radius - tread.thickness;
   if (!c.volume.target || low >= high) return;
   if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never) {
@@ -28,12 +28,14 @@ void volume_conflicts(const Case& c, Conflicts& found) {
     return;
   }
   const double ring = square(w.outer_radius) - square(w.inner_radius);
-  const double least = 1 - (square(high) - square(low)) / ring;
+  double least = 1 - (square(high) - square(low)) / ring;
+  for (const SolidAnnulus& solid : between) least += (square(solid.outer) - square(solid.inner)) / ring;
   const double most = 1 - double(w.sectors) / (double(c.grid.radial_cells) * c.grid.angular_cells);
   if (*c.volume.target <= least)
     found.push_back(
         {with_ring_shape({key_of(&Volume::target)}),
-         fmt::format("the bands at rim and tread, which remain material, are {:.6g} of the ring", least),
+         fmt::format("the bands at rim and tread{}, which remain material, are {:.6g} of the ring",
+                     between.empty() ? "" : " and the layers without holes", least),
          fmt::format("use more than {:.3g}, or thinner bands", rounded_up(least))});
   if (*c.volume.target > most)
     found.push_back({{key_of(&Volume::target), key_of(&Grid::radial_cells), key_of(&Grid::angular_cells),

@@ -51,7 +51,7 @@ void wheel_conflicts(const Case& c, Conflicts& found) {
                      fmt::format("use outer_radius >= {:.6g} m", w.inner_radius / (1 - 2 * thinnest))});
     return;
   }
-  const auto [rim, tread] = bands(c);
+  const auto [rim, tread, between] = bands(c);
   check_band(c, rim, "rim", key_of(&Optimizer::rim_band), c.optimizer.rim_band.has_value(), found);
   check_band(c, tread, "tread", key_of(&Optimizer::tread_band), c.optimizer.tread_band.has_value(), found);
   if (rim.thickness + tread.thickness >= w.outer_radius - w.inner_radius) {

@@ -47,6 +47,14 @@ const Section<Wheel>& wheel_section() {
   return section;
 }
 
+namespace {
+
+constexpr Range modulus = above(0, 1e13), ratio = at_least_and_below(0, 0.5), densities = above(0, 1e5);
+constexpr std::string_view meaning_of_ratio =
+    "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, if plane = \"strain\"";
+
+}  // namespace
+
 const Section<Material>& material_section() {
   static const Section<Material> section{
       .name = "material",
@@ -54,22 +62,59 @@ const Section<Material>& material_section() {
       .in = [](Case& c) -> Material& { return c.material; },
       .keys = {{.name = "youngs_modulus",
                 .unit = "Pa",
-                .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
+                .field = NumberField<Material>{&Material::youngs_modulus, modulus},
                 .meaning = "E: Young's modulus"},
                {.name = "poissons_ratio",
-                .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
-                .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
-                           "if plane = \"strain\""},
+                .field = NumberField<Material>{&Material::poissons_ratio, ratio},
+                .meaning = meaning_of_ratio},
                {.name = "plane",
                 .field = choice<&Material::plane>({"strain", "stress"}),
                 .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
                            "axle, for wheels cut from sheet"},
                {.name = "density",
                 .unit = "kg/m^3",
-                .field = OptionalNumberField<Material>{&Material::density, above(0, 1e5), "no mass is shown"},
+                .field = OptionalNumberField<Material>{&Material::density, densities, "no mass is shown"},
                 .meaning = "for the mass of the wheel, also if it is minimized or bounded, and for "
                            "load.speed; the weight is set by load.body_force"}}};
   return section;
+}
+
+const SectionArray<MaterialLayer>& material_layer_sections() {
+  static const SectionArray<MaterialLayer> sections{
+      .parent = "material",
+      .name = "layer",
+      .meaning =
+          "a ring of another material between two radii, bonded to what lies inside and outside of it: "
+          "linear isotropic elasticity, in the plane of [material], which is the material of what lies "
+          "in no layer; layers do not overlap, and their radii lie on lines of the grid, of which there are "
+          "grid.radial_cells + 1 at equal distances",
+      .in = [](Case& c) -> std::vector<MaterialLayer>& { return c.layers; },
+      .example = {.name = "tyre", .inner_radius = 0.33, .youngs_modulus = 30e6, .poissons_ratio = 0.48},
+      .keys = {{.name = "name",
+                .field = TextField<MaterialLayer>{&MaterialLayer::name, "its number"},
+                .meaning = "a word for pictures, files and messages, e.g. tyre or core"},
+               radius_key<MaterialLayer>(&MaterialLayer::inner_radius, "inner_radius", "wheel.inner_radius",
+                                         "where the layer begins"),
+               radius_key<MaterialLayer>(&MaterialLayer::outer_radius, "outer_radius", "wheel.outer_radius",
+                                         "where it ends"),
+               {.name = "youngs_modulus",
+                .unit = "Pa",
+                .field = NumberField<MaterialLayer>{&MaterialLayer::youngs_modulus, modulus},
+                .meaning = "E: Young's modulus",
+                .presence = Presence::required},
+               {.name = "poissons_ratio",
+                .field = NumberField<MaterialLayer>{&MaterialLayer::poissons_ratio, ratio},
+                .meaning = meaning_of_ratio,
+                .presence = Presence::required},
+               {.name = "density",
+                .unit = "kg/m^3",
+                .field = OptionalNumberField<MaterialLayer>{&MaterialLayer::density, densities,
+                                                            "no mass is shown"},
+                .meaning = "for the mass of the wheel and for load.speed, which need that of every material"},
+               {.name = "holes",
+                .field = choice<&MaterialLayer::holes>({"allowed", "none"}),
+                .meaning = "none: the layer stays solid, like a protected band of its thickness"}}};
+  return sections;
 }
 
 }  // namespace wheelwright

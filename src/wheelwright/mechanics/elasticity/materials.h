@@ -1,30 +1,76 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "wheelwright/mechanics/elasticity/isotropic_law.h"
+#include "wheelwright/shape/geometry/polar_grid.h"
 
 namespace wheelwright {
 
-/// The material law at every place of the ring, one per radial row of cells, counted from the rim. Laws are
-/// always looked up by place: no other code assumes that all rows have the same one, as they do today.
+/// The material law at every place of the ring: annular layers that are bonded to each other, each of one
+/// material. Laws are always looked up by place.
 template <int dim>
 class Materials {
  public:
+  /// What lies between the next layer inside, or the rim, and a radius.
+  struct Layer {
+    double outer_radius;  ///< [m]; that of the last layer does not matter: it reaches the tread
+    std::shared_ptr<const MaterialLaw<dim>> law;
+  };
+
   Materials() : Materials(Material()) {}
 
   /// The same material everywhere.
   Materials(const Material& everywhere) : Materials(std::make_shared<IsotropicLaw<dim>>(everywhere)) {}
-  Materials(std::shared_ptr<const MaterialLaw<dim>> everywhere) : everywhere_(std::move(everywhere)) {}
+  Materials(std::shared_ptr<const MaterialLaw<dim>> everywhere) : layers_{{0, std::move(everywhere)}} {}
 
-  /// The law of the cells of a radial row.
-  const MaterialLaw<dim>& in_row(int) const { return *everywhere_; }
+  /// Layers from the rim to the tread, at least one. The radii between them must be radii of lines of the
+  /// model's grid (PolarGrid::nearest_line).
+  explicit Materials(std::vector<Layer> layers) : layers_(std::move(layers)) {}
+
+  const std::vector<Layer>& layers() const { return layers_; }
+
+  /// The index of the layer in which a circle lies.
+  int layer_at(double radius) const {
+    int layer = 0;
+    while (layer + 1 < static_cast<int>(layers_.size()) && radius > layers_[layer].outer_radius) ++layer;
+    return layer;
+  }
+
+  const MaterialLaw<dim>& at_radius(double radius) const { return *layers_[layer_at(radius)].law; }
+
+  /// The law of the cells of a radial row, counted from the rim.
+  const MaterialLaw<dim>& in_row(const PolarGrid<dim>& grid, int row) const {
+    return at_radius(grid.middle_of_row(row));
+  }
+
+  /// Whether the cells of a row and of the next one outside belong to different layers.
+  bool is_interface(const PolarGrid<dim>& grid, int row) const {
+    return layer_at(grid.middle_of_row(row)) != layer_at(grid.middle_of_row(row + 1));
+  }
+
+  /// Whether all radii between layers are those of lines of a grid, up to a millionth of a cell.
+  bool fit(const PolarGrid<dim>& grid) const {
+    return std::all_of(layers_.begin(), layers_.end() - 1, [&](const Layer& layer) {
+      const auto [line, distance] = grid.nearest_line(layer.outer_radius);
+      return line > 0 && line < grid.cells[0] && std::abs(distance) < 1e-6 * grid.cell_size()[0];
+    });
+  }
 
   /// The law at the tread, which meets the ground.
-  const MaterialLaw<dim>& at_tread() const { return *everywhere_; }
+  const MaterialLaw<dim>& at_tread() const { return *layers_.back().law; }
+
+  /// The largest modulus by which a layer is scaled, MaterialLaw::scaling_modulus() [Pa].
+  double stiffest() const {
+    double modulus = 0;
+    for (const Layer& layer : layers_) modulus = std::max(modulus, layer.law->scaling_modulus());
+    return modulus;
+  }
 
  private:
-  std::shared_ptr<const MaterialLaw<dim>> everywhere_;
+  std::vector<Layer> layers_;
 };
 
 }  // namespace wheelwright

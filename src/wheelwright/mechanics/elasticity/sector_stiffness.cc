@@ -33,19 +33,20 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
       dilatation_(dilatation) {
   const auto rule = unit_cell_rule<dim>(degree + 2);
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
-    elements_.emplace_back(grid, degree, std::array<int, dim>{radial}, materials.in_row(radial), dilatation);
-    stiffness_.push_back(bulk(elements_.back(), materials.in_row(radial), rule));
+    elements_.emplace_back(grid, degree, std::array<int, dim>{radial}, law(radial), dilatation);
+    stiffness_.push_back(bulk(elements_.back(), law(radial), rule));
   }
   const double column_angle = grid.cell_size()[1];
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
-    const auto compressible = compressible_law<dim>(materials.in_row(radial));
-    const MaterialLaw<dim>& law = compressible ? *compressible : materials.in_row(radial);
+    const auto compressible = compressible_law<dim>(law(radial));
+    const MaterialLaw<dim>& ghost_law = compressible ? *compressible : law(radial);
     for (int axis = 0; axis < dim; ++axis) {
       const int plus = axis == 0 ? std::min(radial + 1, grid.cells[0] - 1) : radial;
       ghosts_.push_back(ghost_stiffness<dim>(elements_[radial], elements_[plus], axis,
-                                             axis == 1 ? column_angle : 0.0, law, ghost));
+                                             axis == 1 ? column_angle : 0.0, ghost_law, ghost));
     }
-    divided_ghosts_.push_back(divided_ghost_stiffness<dim>(elements_[radial], column_angle, law, ghost));
+    divided_ghosts_.push_back(
+        divided_ghost_stiffness<dim>(elements_[radial], column_angle, ghost_law, ghost));
     if constexpr (dim == 3)
       ghosts_at_middle_.push_back(half_of_symmetric_pair(face_ghost(radial, 2), degree));
   }
@@ -70,6 +71,8 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
   for (const GhostFace& face : domain.ghost_faces) {
     if (!space.penalizes(face) || table.ghost().xi == 0) continue;
     const int radial = grid.cell_position(face.minus)[0];
+    // Derivatives jump where two materials meet.
+    if (face.axis == 0 && table.materials().is_interface(grid, radial)) continue;
     const auto add = [&](std::vector<int> nodes, const Matrix& stiffness) {
       pattern.couple(nodes);
       sector.ghosts.push_back({std::move(nodes), &stiffness});
@@ -98,8 +101,7 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
   parallel_for(static_cast<int>(domain.cut.size()), [&](int i) {
     const CutCell<dim>& cut = domain.cut[i];
     const int radial = grid.cell_position(cut.cell)[0];
-    cut_stiffness[i] =
-        table.bulk_stiffness(table.element(radial), table.materials().in_row(radial), cut.material);
+    cut_stiffness[i] = table.bulk_stiffness(table.element(radial), table.law(radial), cut.material);
   });
   for (size_t i = 0; i < domain.cut.size(); ++i) matrix.add(cell_nodes[domain.cut[i].cell], cut_stiffness[i]);
   for (const auto& ghost : sector.ghosts) matrix.add(ghost.nodes, *ghost.stiffness);

@@ -23,14 +23,13 @@ class ElementTable {
   const PolarGrid<dim>& grid() const { return grid_; }
   int degree() const { return degree_; }
   const Materials<dim>& materials() const { return materials_; }
+  const MaterialLaw<dim>& law(int radial) const { return materials_.in_row(grid_, radial); }
   const GhostPenalty& ghost() const { return ghost_; }
   SideFaces sides() const { return sides_; }
   DilatationKind dilatation() const { return dilatation_; }
 
   /// The stiffness of dofs fixed by the side faces: so large that they are zero up to rounding [N/m].
-  double held_stiffness() const {
-    return 1e20 * materials_.at_tread().scaling_modulus() * grid_.resolution();
-  }
+  double held_stiffness() const { return 1e20 * materials_.stiffest() * grid_.resolution(); }
 
   /// The stiffness of a part of a cell, which may be one of a refined grid.
   Matrix bulk_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,

@@ -296,8 +296,7 @@ class ColumnAssembly {
     fine.outer_radius = layer.outer_radius;
     fine.cells[0] = layer.rows;
     fine.cells[1] <<= layer.level;
-    const double height = layer.inner_radius + (row + 0.5) * fine.cell_size()[0] - grid_.inner_radius;
-    const MaterialLaw<dim>& law = materials_.in_row(static_cast<int>(height / grid_.cell_size()[0]));
+    const MaterialLaw<dim>& law = materials_.in_row(fine, row);
     const ElasticElement<dim> element(fine, degree_, {row}, law, table_.dilatation());
     const Matrix stiffness = table_.bulk_stiffness(element, law, volume_rule_);
     const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;

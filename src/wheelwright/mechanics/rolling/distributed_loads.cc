@@ -84,7 +84,7 @@ SectorIntegrals<dim> sector_integrals(const CutDomain<dim>& domain, const Elemen
     const Vec<dim> moment = rotated<dim>(integrals.moment, angle);
     for (int d = 0; d < dim; ++d) sector.moment[d] += moment[d];
     if (!rotates) return;
-    const double density = elements.materials().in_row(grid.cell_position(cell)[0]).density().value_or(0);
+    const double density = elements.law(grid.cell_position(cell)[0]).density().value_or(0);
     add_number<dim>(ring, nodes, integrals.spin, density, dim + 1, sector.loads);
     for (int d = 0; d < 2; ++d) sector.mass_moment[d] += density * moment[d];
   };

@@ -81,9 +81,9 @@ MaterialLoads material_loads(const RollingProblem<dim>& problem, const RollingSo
         if (covering.empty()) return;
         std::vector<Vec<dim>> xi;
         for (const auto& point : points) xi.push_back(point.xi);
-        const Matrix of_cell = cell_loads<dim>(
-            problem.elements().element(place[0]), problem.elements().materials().in_row(place[0]),
-            displacement.strains(cell, xi), points, grid.n_sectors, covering);
+        const Matrix of_cell =
+            cell_loads<dim>(problem.elements().element(place[0]), problem.elements().law(place[0]),
+                            displacement.strains(cell, xi), points, grid.n_sectors, covering);
         if (place[0] < problem.core_rows()) {
           add_to_core(s.ring, s.ring.sector().space.cell_nodes(cell), of_cell, loads.core);
         } else {

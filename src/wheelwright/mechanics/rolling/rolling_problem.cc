@@ -36,8 +36,10 @@ int components_in_contact(const RollingModel<dim>& model) {
 /// Why the materials of a model are not those of a linear ring.
 template <int dim>
 std::optional<Failure> unsupported_material(const RollingModel<dim>& model) {
+  if (!model.materials.fit(model.grid))
+    return Failure{FailureReason::unsupported_model, "layers of materials end between the lines of the grid"};
   for (int row = 0; row < model.grid.cells[0]; ++row) {
-    const MaterialLaw<dim>& law = model.materials.in_row(row);
+    const MaterialLaw<dim>& law = model.materials.in_row(model.grid, row);
     if (dim == 3 && law.isotropic() && law.isotropic()->plane == Plane::stress)
       return Failure{FailureReason::unsupported_model, "plane stress is for two dimensions only"};
     if (const auto fault = fault_of_linear_law<dim>(law))

@@ -111,7 +111,7 @@ class Densities {
     const auto place = grid.cell_position(boundary.cell);
     const double angle = place[1] * grid.cell_size()[1];
     const auto& element = problem_.elements().element(place[0]);
-    const MaterialLaw<dim>& law = problem_.elements().materials().in_row(place[0]);
+    const MaterialLaw<dim>& law = problem_.elements().law(place[0]);
     const auto nodes = s_.ring.sector().space.cell_nodes(boundary.cell);
     std::vector<typename ElasticElement<dim>::Point> points;
     for (const auto& q : boundary.rule) points.push_back(element.at(q.xi));

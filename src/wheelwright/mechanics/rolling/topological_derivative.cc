@@ -40,7 +40,7 @@ class Derivatives {
     const PolarGrid<dim>& grid = problem_.model().grid;
     const auto place = grid.cell_position(point.cell);
     const auto& element = problem_.elements().element(place[0]);
-    const MaterialLaw<dim>& law = problem_.elements().materials().in_row(place[0]);
+    const MaterialLaw<dim>& law = problem_.elements().law(place[0]);
     const auto nodes = s_.ring.sector().space.cell_nodes(point.cell);
     const auto at = element.at(point.xi);
     Matrix u(displacement_.modes.rows(), element.n_dofs()), p = u;
@@ -106,7 +106,7 @@ std::optional<Failure> unsupported(const RollingModel<dim>& model,
     return Failure{FailureReason::unsupported_model,
                    "the derivative to small holes is not known under a pressure in the holes"};
   for (int row = 0; row < model.grid.cells[0]; ++row)
-    if (!model.materials.in_row(row).isotropic())
+    if (!model.materials.in_row(model.grid, row).isotropic())
       return Failure{FailureReason::unsupported_model,
                      "the derivative to small holes is known for isotropic materials only"};
   if (dim == 3 && std::ranges::any_of(functions, [](const auto& f) { return !f.integrals.empty(); }))

@@ -30,7 +30,7 @@ void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
                             determinant<dim>(map.jacobian(ShapeFunctions<dim>(model.degree, point.xi))));
         }
         visit({std::move(weights), by_load_case(displacement.strains(cell, xi)), model.grid.n_sectors,
-               model.materials.in_row(place[0])});
+               model.materials.in_row(model.grid, place[0])});
       });
 }
 

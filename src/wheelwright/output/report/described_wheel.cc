@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "wheelwright/cad/outline/fit_outline.h"
+#include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/quantities.h"
 
 namespace wheelwright {
@@ -31,9 +32,8 @@ double first_harmonic(const std::vector<double>& values) {
 }
 
 template <int dim>
-std::optional<double> mass(const StateSolver<dim>& solver, double volume_fraction) {
-  const RollingModel<dim>& model = solver.model();
-  const std::optional<double> density = model.materials.at_tread().density();
+std::optional<double> mass(const RollingModel<dim>& model, const LevelSet<dim>& psi, double volume_fraction) {
+  const std::optional<double> density = mean_density(model.materials, psi);
   if (!density) return {};
   const PolarGrid<dim>& grid = model.grid;
   const double area =
@@ -129,7 +129,7 @@ DescribedWheel<dim> described_solution(const StateSolver<dim>& solver, const Lev
                             .which = {},
                             .grid = solver.model().grid,
                             .volume_fraction = volume_fraction,
-                            .mass = mass(solver, volume_fraction),
+                            .mass = mass(solver.model(), psi, volume_fraction),
                             .outline = OutlineMeasures{},
                             .loaded = loaded_wheel(solver, psi, states),
                             .own = own_numbers ? own_numbers(states) : std::vector<OwnNumber>()};

@@ -141,7 +141,7 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
     of_column.push_back({std::cos(azimuth), std::sin(azimuth)});
   }
   for (int row = 0; row < grid.cells[0]; ++row) {
-    const MaterialLaw<dim>& law = model.materials.in_row(row);
+    const MaterialLaw<dim>& law = model.materials.in_row(grid, row);
     const ElasticElement<dim> element(grid, model.degree, {row}, law, model.dilatation);
     const std::vector<RingCell<dim>> cells = active_cells(lattice, domain, row);
     Matrix dofs(element.n_dofs(), static_cast<int>(cells.size()));

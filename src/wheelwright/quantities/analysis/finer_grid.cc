@@ -13,10 +13,14 @@ int more_cells(int cells) {
   return dim == 2 ? 2 * cells : (4 * cells + 2) / 3;
 }
 
-/// The fewest radial cells, at least so many, with which the condensed rows stay as thick as they are.
-int radial_cells_with_rows(int cells, int finer, int rows) {
-  while (rows * finer % cells != 0) ++finer;
-  return finer;
+/// Whether the condensed rows, where tractions are observed in them, stay as thick as they are with this many
+/// radial cells, and layers of materials end on lines of the grid.
+template <int dim>
+bool keeps_lines(const RollingModel<dim>& model, int radial_cells) {
+  PolarGrid<dim> finer = model.grid;
+  finer.cells[0] = radial_cells;
+  return (model.tread.annulus_points == 0 || model.tread.rows * radial_cells % model.grid.cells[0] == 0) &&
+         model.materials.fit(finer);
 }
 
 }  // namespace
@@ -24,12 +28,13 @@ int radial_cells_with_rows(int cells, int finer, int rows) {
 template <int dim>
 RollingModel<dim> on_finer_grid(RollingModel<dim> model) {
   const std::array<int, dim> before = model.grid.cells;
+  int radial_cells = more_cells<dim>(before[0]);
+  while (!keeps_lines(model, radial_cells)) ++radial_cells;
   auto& cells = model.grid.cells;
-  for (int d = 0; d < dim; ++d) cells[d] = more_cells<dim>(before[d]);
+  cells[0] = radial_cells;
+  for (int d = 1; d < dim; ++d) cells[d] = more_cells<dim>(before[d]);
   if constexpr (dim == 3)
     if (before[2] % 2 == 0) cells[2] += cells[2] % 2;
-  if (model.tread.annulus_points > 0)
-    cells[0] = radial_cells_with_rows(before[0], cells[0], model.tread.rows);
   model.tread.rows = std::max(1, model.tread.rows * cells[0] / before[0]);
   return model;
 }

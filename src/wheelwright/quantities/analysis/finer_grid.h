@@ -8,7 +8,9 @@ namespace wheelwright {
 /// The model on a finer grid, for estimates of the discretization error: with twice as many cells along each
 /// axis in 2D, and in 3D, where that would cost too much, with 4/3 as many, rounded up. An even number of
 /// cells along the axle stays even. Loads, load positions, the number of halvings at the tread and, where
-/// tractions are observed in its condensed rows, their thickness stay the same.
+/// tractions are observed in its condensed rows, their thickness stay the same, and layers end on lines of
+/// the grid: with twice as many radial cells all that holds. The layers of the model must end on lines of its
+/// grid.
 template <int dim>
 RollingModel<dim> on_finer_grid(RollingModel<dim> model);
 

@@ -182,8 +182,7 @@ std::vector<QuantityRow> material_rows() {
            .of = Positions::none,
            .functional =
                []<int dim>(const QuantityContext<dim>& context) {
-                 return std::make_shared<const Mass<dim>>(
-                     context.solver.model().materials.at_tread().density().value_or(0));
+                 return std::make_shared<const Mass<dim>>(context.solver.model().materials);
                },
            .needs = {Input::density},
            .is_amount_of_material = true},

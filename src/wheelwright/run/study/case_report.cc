@@ -7,7 +7,9 @@
 #include <iterator>
 #include <numbers>
 
+#include "wheelwright/case/case_key.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/shape_symmetry.h"
@@ -34,7 +36,21 @@ std::string load_report(const Case& c) {
               fmt::format("{} per sector, {} around the wheel", c.load.positions, total_load_positions(c)));
 }
 
+/// One line a layer, from the rim to the tread.
+std::string layers_report(const Case& c) {
+  std::string report;
+  for (const auto& [inner, outer, material, layer] : placed_materials(c))
+    report += line(layer ? name_of_layer(c, *layer) : "material",
+                   fmt::format("radius {:.6g} to {:.6g} mm, E {:.6g} MPa, nu {:.6g}{}", inner * 1e3,
+                               outer * 1e3, material.youngs_modulus / 1e6, material.poissons_ratio,
+                               layer && c.layers[*layer].holes == LayerHoles::none ? ", no holes" : ""));
+  return report;
+}
+
 std::string material_report(const Case& c) {
+  if (!c.layers.empty())
+    return layers_report(c) +
+           line("E* of the contact", fmt::format("about {:.3g} MPa", effective_contact_modulus(c) / 1e6));
   return line("lambda", fmt::format("{:.6g} MPa", c.material.lambda() / 1e6)) +
          line("mu", fmt::format("{:.6g} MPa", c.material.mu() / 1e6)) +
          line("E* of the contact", fmt::format("{:.6g} MPa", c.material.contact_modulus() / 1e6));
@@ -95,9 +111,15 @@ std::vector<std::string> doubtful_lengths(const Case& c) {
 
 /// Moduli given in megapascals yield a wheel of jelly.
 std::vector<std::string> doubtful_modulus(const Case& c) {
-  if (!may_be_in_megapascals(c.material.youngs_modulus)) return {};
-  return {fmt::format("material.youngs_modulus = {} Pa: {}", number_text(c.material.youngs_modulus),
-                      question_of_megapascals(c.material.youngs_modulus))};
+  std::vector<std::string> result;
+  for (const auto& [inner, outer, material, layer] : placed_materials(c))
+    if (const double modulus = material.youngs_modulus; may_be_in_megapascals(modulus)) {
+      const CaseKey key =
+          layer ? key_of(&MaterialLayer::youngs_modulus, *layer) : key_of(&Material::youngs_modulus);
+      result.push_back(
+          fmt::format("{} = {} Pa: {}", key.path(), number_text(modulus), question_of_megapascals(modulus)));
+    }
+  return result;
 }
 
 /// Explains the effect of a patch of too few cells, and what would help. Below the grid scale the contact is
@@ -113,7 +135,7 @@ std::string coarse_contact_warning(const Case& c, double cells) {
     text += fmt::format(
         "pressures are not resolved, and the travel and the strain energy lack part of the local "
         "indentation, about {:.2g} mm",
-        -std::log(cells) * 2 * load_per_metre(c) / (std::numbers::pi * c.material.contact_modulus()) * 1e3);
+        -std::log(cells) * 2 * load_per_metre(c) / (std::numbers::pi * effective_contact_modulus(c)) * 1e3);
   else
     text += "pressures are not resolved; energies are accurate to about one percent";
   if (reachable >= least_cells_per_contact_patch)
@@ -193,11 +215,13 @@ std::vector<std::string> warnings(const Case& c) {
         "ghost_penalty.kind = \"paper\" does not keep the stiffness well conditioned for degree 2: some "
         "shapes will "
         "fail; \"full\" is safe");
-  if (const double nu = c.material.plane_strain_equivalent().poissons_ratio; c.grid.degree == 1 && nu > 0.4)
-    result.push_back(fmt::format(
-        "grid.degree = 1 is too stiff for material.poissons_ratio = {}: at 0.48 and 28 x 384 cells "
-        "travel and energy are 5 % too small and pressures useless; grid.degree = 2 is accurate",
-        c.material.poissons_ratio));
+  for (const auto& [inner, outer, material, layer] : placed_materials(c))
+    if (c.grid.degree == 1 && material.plane_strain_equivalent().poissons_ratio > 0.4)
+      result.push_back(fmt::format(
+          "grid.degree = 1 is too stiff for {} = {}: at 0.48 and 28 x 384 cells "
+          "travel and energy are 5 % too small and pressures useless; grid.degree = 2 is accurate",
+          (layer ? key_of(&MaterialLayer::poissons_ratio, *layer) : key_of(&Material::poissons_ratio)).path(),
+          material.poissons_ratio));
   if (c.contact.method == ContactMethod::nitsche && c.contact.gamma_0 > largest_smooth_gamma_0)
     result.push_back(
         fmt::format("contact.gamma_0 = {} is so large that pressures may oscillate by a third; "

@@ -29,7 +29,7 @@ Case coarse_solid(Case c) {
   c.grid.tread_levels = 0;
   c.grid.level_set_degree = 1;  // in both dimensions, so that they see the same edges
   c.grid.axial_cells = axial_cells;
-  Case coarse = on_coarser_grid(c, level_with_few_cells(c.grid, most_cells_of_a_section));
+  Case coarse = on_coarser_grid(c, level_with_few_cells(c, most_cells_of_a_section));
   coarse.grid.axial_cells = axial_cells;
   coarse.grid.tread_levels = 0;
   return coarse;

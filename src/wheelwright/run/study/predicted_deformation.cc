@@ -60,7 +60,7 @@ std::optional<std::string> predicted_under_load(const Case& source, const Interr
 Case on_predicting_grid(Case c) {
   c.load.positions = std::min(c.load.positions, most_positions);
   c.grid.tread_levels.reset();
-  return on_coarser_grid(c, level_with_few_cells(c.grid, most_cells));
+  return on_coarser_grid(c, level_with_few_cells(c, most_cells));
 }
 
 Expected<DeformationSize> predicted_size(const Case& c) { return deformation_of(on_predicting_grid(c), {}); }

@@ -59,7 +59,7 @@ RollingModel<dim> rolling_model(const Case& c) {
   model.grid = polar_grid<dim>(c);
   model.degree = c.grid.degree;
   model.dilatation = c.grid.dilatation;
-  model.materials = c.material;
+  model.materials = materials<dim>(c);
   model.ghost = c.ghost_penalty;
   model.side_faces = c.wheel.side_faces;
   model.contact = {.method = c.contact.method,

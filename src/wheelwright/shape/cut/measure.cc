@@ -1,5 +1,6 @@
 #include "wheelwright/shape/cut/measure.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "wheelwright/shape/cut/cell_quadrature.h"
@@ -34,18 +35,28 @@ double material_measure(const LevelSet<dim>& psi) {
 
 template <int dim>
 double material_measure(const CutDomain<dim>& domain, int map_degree) {
+  return measures_by_annulus<dim>(domain, map_degree, std::vector<int>(domain.grid.cells[0], 0)).front();
+}
+
+template <int dim>
+std::vector<double> measures_by_annulus(const CutDomain<dim>& domain, int map_degree,
+                                        std::span<const int> annulus_of_row) {
   const PolarGrid<dim>& grid = domain.grid;
   const auto whole_cell = unit_cell_rule<dim>(gauss_points);
   std::vector<double> full_cell(grid.cells[0]);
   for (int radial = 0; radial < grid.cells[0]; ++radial)
     full_cell[radial] = cell_measure<dim>(CellMap<dim>(grid, map_degree, {radial}), map_degree, whole_cell);
-  double sum = 0;
-  for (int cell = 0; cell < grid.n_cells(); ++cell)
-    if (domain.kinds[cell] == CellKind::inside) sum += full_cell[grid.cell_position(cell)[0]];
-  for (const CutCell<dim>& cut : domain.cut)
-    sum += cell_measure<dim>(CellMap<dim>(grid, map_degree, grid.cell_position(cut.cell)), map_degree,
-                             cut.material);
-  return sum;
+  std::vector<double> sums(1 + std::ranges::max(annulus_of_row), 0.0);
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const int row = grid.cell_position(cell)[0];
+    if (domain.kinds[cell] == CellKind::inside) sums[annulus_of_row[row]] += full_cell[row];
+  }
+  for (const CutCell<dim>& cut : domain.cut) {
+    const auto place = grid.cell_position(cut.cell);
+    sums[annulus_of_row[place[0]]] +=
+        cell_measure<dim>(CellMap<dim>(grid, map_degree, place), map_degree, cut.material);
+  }
+  return sums;
 }
 
 template <int dim>
@@ -76,6 +87,8 @@ template double material_measure(const LevelSet<2>&);
 template double material_measure(const LevelSet<3>&);
 template double material_measure(const CutDomain<2>&, int);
 template double material_measure(const CutDomain<3>&, int);
+template decltype(measures_by_annulus<2>) measures_by_annulus<2>;
+template decltype(measures_by_annulus<3>) measures_by_annulus<3>;
 template decltype(boundary_samples<2>) boundary_samples<2>;
 template decltype(boundary_samples<3>) boundary_samples<3>;
 

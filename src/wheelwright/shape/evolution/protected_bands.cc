@@ -13,21 +13,30 @@ template <int dim>
 ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, const Bands& bands)
     : grid_(lattice.grid()),
       range_(hole_range(grid_, bands)),
+      between_(bands.between),
       nodes_(lattice.n_nodes()),
       upper_bound_(lattice.n_nodes()) {
   const double rounding = 1e-9 * grid_.resolution();
   for (int node = 0; node < lattice.n_nodes(); ++node) {
     const double radius = lattice.polar_point(node)[0];
     nodes_[node] = radius < grid_.inner_radius + bands.rim.thickness - rounding ||
-                   radius > grid_.outer_radius - bands.tread.thickness + rounding;
+                   radius > grid_.outer_radius - bands.tread.thickness + rounding ||
+                   std::ranges::any_of(between_, [&](const SolidAnnulus& solid) {
+                     return radius > solid.inner - rounding && radius < solid.outer + rounding;
+                   });
     upper_bound_[node] = distance(radius);
   }
 }
 
-/// Radial distance to the nearest edge of the range of holes; negative outside of it.
+/// Radial distance to the nearest edge of where holes may lie; negative outside of it.
 template <int dim>
 double ProtectedBands<dim>::distance(double radius) const {
-  return std::min(radius - range_.inner, range_.outer - radius);
+  double result = std::min(radius - range_.inner, range_.outer - radius);
+  // As at the edges of the range: rounding would decide on which side of a grid line a boundary lies.
+  const double apart = 0.001 * grid_.resolution();
+  for (const SolidAnnulus& solid : between_)
+    result = std::min(result, std::max(solid.inner - apart - radius, radius - solid.outer - apart));
+  return result;
 }
 
 template <int dim>

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-/// The bands along the rim and the tread that stay material.
+/// The bands along the rim and the tread, and the annuli between them, that stay material.
 template <int dim>
 class ProtectedBands {
  public:
@@ -35,6 +35,7 @@ class ProtectedBands {
 
   PolarGrid<dim> grid_;
   HoleRange range_;
+  std::vector<SolidAnnulus> between_;
   std::vector<bool> nodes_;
   std::vector<double> upper_bound_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "wheelwright/shape/geometry/polar_grid.h"
 
@@ -12,8 +13,15 @@ struct Band {
   int full_rows = 0;     ///< rows of cells at this edge that the solver cannot cut; they are inside the band
 };
 
+/// Everything between two radii [m], which stays material.
+struct SolidAnnulus {
+  double inner, outer;
+};
+
+/// What stays material.
 struct Bands {
   Band rim, tread;
+  std::vector<SolidAnnulus> between = {};
 };
 
 /// Radii between which holes may lie [m].

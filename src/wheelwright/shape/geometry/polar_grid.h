@@ -35,6 +35,21 @@ struct PolarGrid {
     return size;
   }
 
+  /// The radius in the middle of the cells of a row [m].
+  double middle_of_row(int row) const { return inner_radius + (row + 0.5) * cell_size()[0]; }
+
+  /// The grid line, counted from the rim, that is nearest to a circle, and how far outside it the circle lies
+  /// [m].
+  struct LineAtRadius {
+    int line;
+    double distance;
+  };
+  LineAtRadius nearest_line(double radius) const {
+    const double size = cell_size()[0];
+    const int line = static_cast<int>(std::lround((radius - inner_radius) / size));
+    return {line, radius - inner_radius - line * size};
+  }
+
   /// The length h [m] in which steps and bands are measured: the shortest edge of a cell at the mean radius
   /// of the ring.
   double resolution() const {

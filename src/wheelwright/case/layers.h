@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+#include "wheelwright/mechanics/elasticity/materials.h"
+
+namespace wheelwright {
+
+/// An annulus of the ring of one material.
+struct PlacedMaterial {
+  double inner_radius, outer_radius;  ///< [m]
+  Material material;
+  std::optional<std::size_t> layer;  ///< of the case; nothing for what lies in none
+};
+
+/// Where a layer of the case lies.
+struct LayerRadii {
+  double inner, outer;  ///< [m]
+};
+LayerRadii radii(const Case& c, const MaterialLayer& layer);
+
+/// The name of a layer, or "layer 2" for the second one if it has none.
+std::string name_of_layer(const Case& c, std::size_t layer);
+
+/// The ring from the rim to the tread: the layers of the case, and the material of the rest between them. The
+/// layers must not overlap.
+std::vector<PlacedMaterial> placed_materials(const Case& c);
+
+/// The same for the mechanics.
+template <int dim>
+Materials<dim> materials(const Case& c);
+
+/// Whether with this many radial cells the layers end on lines of the grid.
+bool layers_fit(const Case& c, int radial_cells);
+
+/// The material at the tread.
+Material tread_material(const Case& c);
+
+/// E* of the material at a radius [Pa].
+double modulus_at(const Case& c, double radius);
+
+/// E* of Hertz's theory [Pa] for a contact of this half-width [m]: that of the tread, or with layers an
+/// estimate. The indentation of a layer between the depths z1 and z2 below the tread counts with the share
+/// exp(-z1/a) - exp(-z2/a) of that of a half-space, as Doerner and Nix do for one layer on a substrate.
+double contact_modulus(const Case& c, double half_width);
+
+}  // namespace wheelwright

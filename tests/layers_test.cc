@@ -1,0 +1,281 @@
+// Rings of several materials: exact solutions, limits, and derivatives where holes cross from one to another.
+
+#include "wheelwright/case/layers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/linalg/lu_factor.h"
+#include "wheelwright/quantities/analysis/finer_grid.h"
+#include "wheelwright/quantities/functionals/mass.h"
+#include "wheelwright/quantities/functionals/rim_quantities.h"
+#include "wheelwright/run/study/study.h"
+
+namespace wheelwright {
+namespace {
+
+using std::numbers::pi;
+using testing::generic_hole;
+using testing::paper_model;
+
+template <int dim>
+Materials<dim> layered(const std::vector<std::pair<double, Material>>& layers) {
+  std::vector<typename Materials<dim>::Layer> result;
+  for (const auto& [outer_radius, material] : layers)
+    result.push_back({outer_radius, std::make_shared<IsotropicLaw<dim>>(material)});
+  return Materials<dim>(std::move(result));
+}
+
+LevelSet<2> full(const PolarGrid<2>& grid) { return testing::holes(grid, 2, {}); }
+
+std::shared_ptr<const State<2>> solved(const RollingModel<2>& model, const LevelSet<2>& psi) {
+  const auto solver = make_solver(model);
+  if (!solver) throw std::runtime_error(solver.failure().detail);
+  const auto state = (*solver)->states(psi, (*solver)->all_positions(), Interrupt());
+  if (!state) throw std::runtime_error(state.failure().detail);
+  return *state;
+}
+
+/// A tread bonded to a rigid ring.
+RollingModel<2> bushing(int radial_cells, int angular_cells) {
+  auto model = paper_model(radial_cells, angular_cells);
+  model.grid.n_sectors = 8;
+  model.grid.cells[1] = angular_cells / 8;
+  model.contact.counterpart = Counterpart::ring;
+  model.contact_points = 3;
+  model.n_positions = 1;
+  return model;
+}
+
+/// The force per displacement of the rim of a bonded bush of layers [N/m per metre of width], by Kolosov's
+/// potentials: 2 mu (u_x + i u_y) = p(r) + q(r) e^(2i theta), and the tractions on circles in the same form.
+/// A layer has four terms: a translation, phi = z^2, phi = log z with psi = -kappa log z, and psi = 1 / z^2.
+double radial_stiffness(double inner, const std::vector<std::pair<double, Material>>& layers) {
+  struct Terms {
+    double p[4], q[4], traction_p[4], traction_q[4];
+  };
+  const auto terms = [](const Material& m, double r) {
+    const double nu = m.poissons_ratio, kappa = m.plane == Plane::strain ? 3 - 4 * nu : (3 - nu) / (1 + nu),
+                 s = 1 / (2 * m.mu());
+    return Terms{{1, -2 * r * r * s, 2 * kappa * std::log(r) * s, 0},
+                 {0, kappa * r * r * s, -s, -s / (r * r)},
+                 {0, 0, (1 + kappa) / r, 0},
+                 {0, 2 * r, 2 / r, 2 / (r * r * r)}};
+  };
+  const int n = 4 * static_cast<int>(layers.size());
+  Matrix a(n, n), b(n, 1);
+  int row = 0;
+  const auto put = [&](int layer, const double(&values)[4], double sign) {
+    for (int k = 0; k < 4; ++k) a(row, 4 * layer + k) = sign * values[k];
+  };
+  const Terms at_rim = terms(layers.front().second, inner);
+  put(0, at_rim.p, 1);
+  b(row++, 0) = 1;
+  put(0, at_rim.q, 1);
+  ++row;
+  for (int i = 0; i + 1 < static_cast<int>(layers.size()); ++i) {
+    const double r = layers[i].first;
+    const Terms below = terms(layers[i].second, r), above = terms(layers[i + 1].second, r);
+    for (const auto member : {&Terms::p, &Terms::q, &Terms::traction_p, &Terms::traction_q}) {
+      put(i, below.*member, 1);
+      put(i + 1, above.*member, -1);
+      ++row;
+    }
+  }
+  const int last = static_cast<int>(layers.size()) - 1;
+  const Terms at_tread = terms(layers.back().second, layers.back().first);
+  put(last, at_tread.p, 1);
+  ++row;
+  put(last, at_tread.q, 1);
+  const Matrix solution = LuFactor::factor(std::move(a))->solve(std::move(b));
+  const Material& m = layers.front().second;
+  const double nu = m.poissons_ratio, kappa = m.plane == Plane::strain ? 3 - 4 * nu : (3 - nu) / (1 + nu);
+  return std::abs(2 * pi * (1 + kappa) * solution(2, 0));
+}
+
+double torsional_stiffness(double inner, const std::vector<std::pair<double, Material>>& layers) {
+  double compliance = 0;
+  for (const auto& [outer, material] : layers) {
+    compliance += (1 / (inner * inner) - 1 / (outer * outer)) / (4 * pi * material.mu());
+    inner = outer;
+  }
+  return 1 / compliance;
+}
+
+TEST(Layers, OfABushHaveTheExactStiffnesses) {
+  for (const Plane plane : {Plane::strain, Plane::stress})
+    for (const double contrast : {1.0, 30.0, 1e5}) {
+      SCOPED_TRACE(contrast);
+      const std::vector<std::pair<double, Material>> layers{
+          {0.235, {2e6, 0.3, plane}}, {0.27, {2e6 * contrast, 0.35, plane}}, {0.34, {3e6, 0.48, plane}}};
+      double errors[2], turns[2];
+      for (const int level : {0, 1}) {
+        auto model = bushing(8 << level, 64 << level);
+        model.materials = layered<2>(layers);
+        const double exact = radial_stiffness(0.2, layers);
+        const auto state = solved(model, full(model.grid));
+        errors[level] = std::abs(model.load / state->contacts()[0].rim.towards_ground / exact - 1);
+        model.torque = 1000;
+        const auto turned = solved(model, full(model.grid));
+        turns[level] = std::abs(
+            model.torque / turned->contacts()[0].rim.rotation / torsional_stiffness(0.2, layers) - 1);
+      }
+      EXPECT_LT(errors[1], 2e-4);
+      EXPECT_GT(std::log2(errors[0] / errors[1]), 1.8);
+      EXPECT_LT(turns[1], 1e-4);
+      EXPECT_GT(std::log2(turns[0] / turns[1]), 1.8);
+    }
+}
+
+TEST(Layers, OfTheSameMaterialAreOneMaterial) {
+  auto model = paper_model(14, 192);
+  model.n_positions = 2;
+  const auto whole = solved(model, full(model.grid));
+  model.materials = layered<2>({{0.24, {200e6, 0.48}}, {0.33, {200e6, 0.48}}, {0.34, {200e6, 0.48}}});
+  const auto in_parts = solved(model, full(model.grid));
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(in_parts->strain_energy()[i] / whole->strain_energy()[i], 1, 1e-12);
+}
+
+/// A core that is much stiffer than what lies on it is as good as a rim: the difference is of first order in
+/// the ratio of the moduli.
+TEST(Layers, OnAStiffCoreTendToAWheelOnARigidOne) {
+  auto model = paper_model(14, 192);
+  model.n_positions = 1;
+  model.materials = Material{200e6, 0.45};
+  const auto hole = [](const PolarGrid<2>& grid) {
+    return testing::holes(grid, 2, {{0.291, 0.47 * grid.sector_angle(), 0.0173}});
+  };
+  auto on_rim = model;
+  on_rim.grid.inner_radius = 0.24;
+  on_rim.grid.cells[0] = 10;
+  const double rigid = solved(on_rim, hole(on_rim.grid))->contacts()[0].travel();
+  double differences[2];
+  for (const int which : {0, 1}) {
+    const double contrast = which == 0 ? 1e3 : 1e5;
+    model.materials = layered<2>({{0.24, {200e6 * contrast, 0.3}}, {0.34, {200e6, 0.45}}});
+    differences[which] = solved(model, hole(model.grid))->contacts()[0].travel() / rigid - 1;
+  }
+  EXPECT_GT(differences[1], 0);
+  EXPECT_LT(differences[0], 5e-3);
+  EXPECT_NEAR(differences[0] / differences[1], 100, 5);
+}
+
+/// Holes that cross from one material to another, without symmetry, with friction.
+TEST(Layers, ShapeGradientPassesTheTaylorTest) {
+  for (const double contrast : {0.02, 50.0})
+    for (const double nu : {0.3, 0.4999}) {
+      SCOPED_TRACE(contrast);
+      auto model = paper_model(14, 192);
+      model.n_positions = 3;
+      model.contact.friction = 0.3;
+      model.horizontal_force = 0.1 * model.load;
+      model.materials = layered<2>(
+          {{0.27, {200e6 * contrast, nu, Plane::strain, 8000}}, {0.34, {200e6, 0.3, Plane::strain, 1100}}});
+      const auto problem = RollingProblem<2>::create(model);
+      ASSERT_TRUE(problem);
+      for (const WeightedSum<2>& terms :
+           {testing::strain_energy_alone(), WeightedSum<2>{{1, std::make_shared<Travel<2>>()}},
+            WeightedSum<2>{{1, std::make_shared<Mass<2>>(model.materials)}}}) {
+        const auto test = testing::generic_taylor_test(*problem, terms);
+        ASSERT_TRUE(test) << test.failure().detail;
+        for (const double order : test->orders) EXPECT_GT(order, 1.9) << terms.front().functional->name();
+      }
+    }
+}
+
+/// A wheel with a hole across the interface on finer and finer grids.
+TEST(Layers, WithAHoleAcrossThemConverge) {
+  double energies[3];
+  for (const int level : {0, 1, 2}) {
+    auto model = paper_model(14 << level, 96 << level);
+    model.n_positions = 1;
+    model.contact.counterpart = Counterpart::ring;
+    model.materials = layered<2>({{0.27, {200e6, 0.3}}, {0.34, {10e6, 0.45}}});
+    energies[level] = solved(model, generic_hole(model.grid))->strain_energy()[0];
+  }
+  // The stress is singular where the interface meets the edge of the hole.
+  EXPECT_LT(std::abs(energies[2] / energies[1] - 1), 2e-3);
+  EXPECT_LT(std::abs(energies[2] - energies[1]), 0.6 * std::abs(energies[1] - energies[0]));
+}
+
+TEST(Layers, HaveTheMassOfTheirParts) {
+  auto model = paper_model(14, 192);
+  model.materials =
+      layered<2>({{0.27, {200e6, 0.3, Plane::strain, 8000}}, {0.34, {10e6, 0.3, Plane::strain, 1000}}});
+  const LevelSet<2> psi = full(model.grid);
+  const double inner = pi * (0.27 * 0.27 - 0.2 * 0.2), outer = pi * (0.34 * 0.34 - 0.27 * 0.27);
+  EXPECT_NEAR(mean_density(model.materials, psi).value(), (8000 * inner + 1000 * outer) / (inner + outer),
+              1e-3);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto evaluation =
+      testing::evaluate_objective<2>(*problem, {{1, std::make_shared<Mass<2>>(model.materials)}}, psi);
+  ASSERT_TRUE(evaluation);
+  EXPECT_NEAR(evaluation->function("objective").value, 8000 * inner + 1000 * outer, 1e-3);
+}
+
+TEST(Layers, EndOnLinesOfFinerGrids) {
+  RollingModel<3> model;
+  model.grid = {0.20, 0.34, 0.12, 16, {14, 6, 4}};
+  model.materials = layered<3>({{0.23, {200e6, 0.3}}, {0.34, {10e6, 0.3}}});
+  ASSERT_TRUE(model.materials.fit(model.grid));
+  const auto finer = on_finer_grid(model);
+  EXPECT_TRUE(finer.materials.fit(finer.grid));
+  EXPECT_LE(finer.grid.cells[0], 28);
+  model.grid.cells[0] = 15;
+  EXPECT_FALSE(model.materials.fit(model.grid));
+  EXPECT_FALSE(RollingProblem<3>::create(model));
+}
+
+CaseResult layered_case(const std::string& layers, const std::string& more = "") {
+  return parse_case("[wheel]\ninner_radius = 0.05\nouter_radius = 0.1\nwidth = 0.05\n[load]\nforce = 2000\n" +
+                        layers + more,
+                    "caster.toml");
+}
+
+TEST(Layers, OfACaseFillTheRing) {
+  const auto good = layered_case(
+      "[[material.layer]]\nname = \"tyre\"\ninner_radius = 0.09\nyoungs_modulus = 30e6\npoissons_ratio = "
+      "0.48\n"
+      "[[material.layer]]\nouter_radius = 0.06\nyoungs_modulus = 70e9\npoissons_ratio = 0.33\nholes = "
+      "\"none\"\n");
+  ASSERT_TRUE(good.value) << good.problems.front().text();
+  const auto ring = placed_materials(*good.value);
+  ASSERT_EQ(ring.size(), 3u);
+  EXPECT_EQ(ring[0].material.youngs_modulus, 70e9);
+  EXPECT_FALSE(ring[1].layer);
+  EXPECT_EQ(ring[1].outer_radius, 0.09);
+  EXPECT_EQ(tread_material(*good.value).youngs_modulus, 30e6);
+  // The number of rows is one with which the layers end on lines.
+  EXPECT_TRUE(layers_fit(*good.value, good.value->grid.radial_cells));
+  EXPECT_GE(bands(*good.value).rim.thickness, 0.01 - 1e-12);
+  // A thin layer on a stiff core is stiffer than a body of its material, and the patch is smaller.
+  EXPECT_GT(effective_contact_modulus(*good.value), tread_material(*good.value).contact_modulus());
+}
+
+TEST(Layers, ThatCannotBeAreRefusedByKey) {
+  const auto refuses = [](const std::string& layers, const std::string& key) {
+    const auto result = layered_case(layers);
+    EXPECT_FALSE(result.value) << layers;
+    ASSERT_FALSE(result.problems.empty());
+    EXPECT_EQ(result.problems.front().key, key) << result.problems.front().text();
+  };
+  const std::string constants = "youngs_modulus = 30e6\npoissons_ratio = 0.4\n",
+                    layer = "[[material.layer]]\n" + constants;
+  refuses(layer + "inner_radius = 0.09\nouter_radius = 0.08\n", "material.layer[1].outer_radius");
+  refuses(layer + "outer_radius = 0.2\n", "material.layer[1].outer_radius");
+  refuses(layer + layer, "material.layer[2]");
+  refuses("[[material.layer]]\ninner_radius = 0.09\npoissons_ratio = 0.4\n",
+          "material.layer[1].youngs_modulus");
+  refuses(layer + "inner_radius = 0.0912345\n[grid]\nradial_cells = 20\n", "material.layer[1].inner_radius");
+  refuses("[[material.layer]]\ninner_radius = 0.09\nyoungs_modulus = 3e6\npoissons_ratio = 0.499995\n",
+          "material.layer[1].poissons_ratio");
+  refuses(layer + "inner_radius = 0.09\n[objective]\nminimize = \"mass\"\n", "objective.minimize");
+}
+
+}  // namespace
+}  // namespace wheelwright
