@@ -20,6 +20,17 @@ namespace wheelwright {
 struct RingField {
   int components;
   std::vector<double> values;
+
+  /// Of a field that jumps between layers of materials: `values` are those in the cells of the rows that are
+  /// not odd, which belong to every other layer, and these are those in the odd ones. Both are empty if the
+  /// field is continuous.
+  std::vector<bool> is_odd_row = {};
+  std::vector<double> odd_values = {};
+
+  /// The values in the cells of a row.
+  const std::vector<double>& in_row(int row) const {
+    return is_odd_row.empty() || !is_odd_row[row] ? values : odd_values;
+  }
 };
 
 /// A scalar of the components of a field at a point.
@@ -57,9 +68,9 @@ std::size_t ring_line(const Lattice<dim>& lattice, int azimuthal) {
   return ring_node<dim>(lattice, {0, azimuthal});
 }
 
-/// The mirror image of a field in the middle plane of sector 0, which takes load position i of n to position
-/// n - i: a sector further than the image in the plane of azimuth 0. A field with as many components as the
-/// space has dimensions is one of vectors, any other one of scalars.
+/// The mirror image of a continuous field in the middle plane of sector 0, which takes load position i of n
+/// to position n - i: a sector further than the image in the plane of azimuth 0. A field with as many
+/// components as the space has dimensions is one of vectors, any other one of scalars.
 template <int dim>
 RingField mirror_image(const Lattice<dim>& lattice, const RingField& field) {
   RingField image = field;
@@ -96,22 +107,24 @@ RingCellNodes<dim> ring_cell_nodes(const Lattice<dim>& lattice, const std::array
 }
 
 /// One component of the field at a point of a cell with these nodes; `shape`: values of the shape functions
-/// there, one per node.
+/// there, one per node. The cell's row matters only to fields that jump.
 inline double interpolate(const RingField& field, std::span<const std::size_t> nodes,
-                          std::span<const double> shape, int component) {
+                          std::span<const double> shape, int component, int row = 0) {
+  const std::vector<double>& values = field.in_row(row);
   double value = 0;
   for (std::size_t a = 0; a < shape.size(); ++a)
-    value += shape[a] * field.values[component + field.components * nodes[a]];
+    value += shape[a] * values[component + field.components * nodes[a]];
   return value;
 }
 
 /// All components there.
 template <std::size_t n_components>
 std::array<double, n_components> interpolate(const RingField& field, std::span<const std::size_t> nodes,
-                                             std::span<const double> shape) {
+                                             std::span<const double> shape, int row = 0) {
+  const std::vector<double>& of_nodes = field.in_row(row);
   std::array<double, n_components> values{};
   for (std::size_t a = 0; a < shape.size(); ++a) {
-    const double* at_node = &field.values[n_components * nodes[a]];
+    const double* at_node = &of_nodes[n_components * nodes[a]];
     for (std::size_t c = 0; c < n_components; ++c) values[c] += shape[a] * at_node[c];
   }
   return values;

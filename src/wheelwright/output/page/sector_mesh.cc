@@ -14,15 +14,19 @@ namespace {
 /// Collects the points of a sector's polygons; shared points are merged.
 class SectorMeshBuilder {
  public:
-  SectorMeshBuilder(const LevelSet<2>& psi, const Lattice<2>& field_lattice)
-      : psi_(psi), field_lattice_(field_lattice) {}
+  SectorMeshBuilder(const LevelSet<2>& psi, const Lattice<2>& field_lattice,
+                    const std::vector<bool>& is_odd_row)
+      : psi_(psi), field_lattice_(field_lattice), is_odd_row_(is_odd_row) {}
 
   std::uint32_t add(int cell, const Vec<2>& xi) {
     const Vec<2> x = position(cell, xi);
-    const auto [entry, is_new] = known_.try_emplace(key(x), static_cast<std::uint32_t>(mesh_.points.size()));
+    const auto place = grid().cell_position(cell);
+    const auto [entry, is_new] =
+        known_.try_emplace(key(x, place[0]), static_cast<std::uint32_t>(mesh_.points.size()));
     if (is_new) {
       mesh_.points.push_back(x);
-      mesh_.nodes.push_back(ring_cell_nodes<2>(field_lattice_, grid().cell_position(cell)));
+      mesh_.rows.push_back(place[0]);
+      mesh_.nodes.push_back(ring_cell_nodes<2>(field_lattice_, place));
       mesh_.shapes.emplace_back(field_lattice_.degree(), xi);
     }
     return entry->second;
@@ -31,8 +35,9 @@ class SectorMeshBuilder {
   /// Whether there is a point here, or in an adjacent sector that shares the edge.
   bool has(int cell, const Vec<2>& xi) const {
     const Vec<2> x = position(cell, xi);
+    const int row = grid().cell_position(cell)[0];
     for (const int sector : {0, 1, -1})
-      if (known_.contains(key(rotated<2>(x, sector * grid().sector_angle())))) return true;
+      if (known_.contains(key(rotated<2>(x, sector * grid().sector_angle()), row))) return true;
     return false;
   }
 
@@ -50,14 +55,17 @@ class SectorMeshBuilder {
     return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)),
                       place[1] * grid().cell_size()[1]);
   }
-  static std::array<long, 2> key(const Vec<2>& x) {
+  /// Points of different layers are not merged: fields jump between them.
+  std::array<long, 3> key(const Vec<2>& x, int row) const {
     constexpr double resolution = 1e7;  // [1/m]
-    return {std::lround(x[0] * resolution), std::lround(x[1] * resolution)};
+    return {std::lround(x[0] * resolution), std::lround(x[1] * resolution),
+            !is_odd_row_.empty() && is_odd_row_[row]};
   }
 
   const LevelSet<2>& psi_;
   const Lattice<2>& field_lattice_;
-  std::map<std::array<long, 2>, std::uint32_t> known_;
+  const std::vector<bool>& is_odd_row_;
+  std::map<std::array<long, 3>, std::uint32_t> known_;
   SectorMesh mesh_;
 };
 
@@ -75,16 +83,19 @@ void for_each_point(const SectorMesh& mesh, const Lattice<2>& lattice, const Rin
         nodes[a] += sector * sector_nodes;
         if (nodes[a] >= ring_nodes) nodes[a] -= ring_nodes;
       }
-      visit(interpolate<n_components>(field, nodes, std::span(mesh.shapes[k].value.data(), n_nodes)));
+      visit(interpolate<n_components>(field, nodes, std::span(mesh.shapes[k].value.data(), n_nodes),
+                                      mesh.rows[k]));
     }
 }
 
 }  // namespace
 
-SectorMesh sector_mesh(const LevelSet<2>& psi, const Lattice<2>& field_lattice) {
+SectorMesh sector_mesh(const LevelSet<2>& psi, const RollingModel<2>& model) {
   constexpr int cut_subdivisions = 2;
   const auto polygons = material_polygons(psi, cut_subdivisions);
-  SectorMeshBuilder builder(psi, field_lattice);
+  const Lattice<2> field_lattice = displacement_lattice(model);
+  const std::vector<bool> is_odd_row = rows_of_odd_layers(model);
+  SectorMeshBuilder builder(psi, field_lattice, is_odd_row);
   const int n_cells = psi.lattice.grid().n_cells();
   for (int cell = 0; cell < n_cells; ++cell)
     for (const MaterialPolygon& polygon : polygons[cell])

@@ -12,14 +12,16 @@ namespace wheelwright {
 /// them.
 struct SectorMesh {
   std::vector<Vec<2>> points;             ///< Cartesian [m]
-  std::vector<RingCellNodes<2>> nodes;    ///< of the cell of every point
+  std::vector<int> rows;                  ///< of the cell of every point
+  std::vector<RingCellNodes<2>> nodes;    ///< of that cell
   std::vector<ShapeFunctions<2>> shapes;  ///< of the fields there, in its cell
   std::vector<std::uint32_t> triangles;   ///< corners, counter-clockwise
 };
 
-/// The mesh of a shape in the plane; `field_lattice` carries the fields. Polygons next to refined ones also
-/// have the midpoints of their sides, so that no gaps open when the mesh is deformed.
-SectorMesh sector_mesh(const LevelSet<2>& psi, const Lattice<2>& field_lattice);
+/// The mesh of a shape in the plane for the fields of a model. Polygons next to refined ones also
+/// have the midpoints of their sides, so that no gaps open when the mesh is deformed. Points between layers
+/// of materials are there once for each of them.
+SectorMesh sector_mesh(const LevelSet<2>& psi, const RollingModel<2>& model);
 
 /// One load position: the fields at the points of a mesh in all sectors, in the order point + n_points *
 /// sector; NaN where there is no material.

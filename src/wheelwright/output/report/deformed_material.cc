@@ -18,12 +18,14 @@ std::array<double, 9> shape_values(int degree, const Vec<2>& xi) {
 }
 
 /// The scalar that is drawn, at a point of a cell with these nodes and values of shape functions.
-double scalar_at(const NamedField& field, std::span<const std::size_t> nodes, std::span<const double> shape) {
-  if (!field.scalar) return interpolate(field.field, nodes, shape, 0);
+double scalar_at(const NamedField& field, int row, std::span<const std::size_t> nodes,
+                 std::span<const double> shape) {
+  if (!field.scalar) return interpolate(field.field, nodes, shape, 0, row);
   if (field.field.components == stress_components<2>)
-    return field.scalar(interpolate<stress_components<2>>(field.field, nodes, shape));
+    return field.scalar(interpolate<stress_components<2>>(field.field, nodes, shape, row));
   std::vector<double> components(field.field.components);
-  for (int c = 0; c < field.field.components; ++c) components[c] = interpolate(field.field, nodes, shape, c);
+  for (int c = 0; c < field.field.components; ++c)
+    components[c] = interpolate(field.field, nodes, shape, c, row);
   return field.scalar(components);
 }
 
@@ -150,7 +152,7 @@ std::vector<DrawnPoint> DeformedMaterial::drawn(const CellPieces& pieces, int se
     const std::span shape(point.shape.data(), nodes_per_cell<2>(lattice_.degree()));
     result.push_back({moved(to_sector.forward(point.x), point.radius, point.azimuth + turn,
                             interpolate<2>(displacement_, nodes, shape)),
-                      scalar_at(scalar, nodes, shape)});
+                      scalar_at(scalar, cell[0], nodes, shape)});
   }
   return result;
 }

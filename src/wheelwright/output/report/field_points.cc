@@ -9,6 +9,7 @@ template <int dim>
 void FieldPoints<dim>::add(const std::array<int, dim>& cell, const Vec<dim>& xi) {
   if (cells_.empty() || cell != last_cell_) {
     cells_.push_back(ring_cell_nodes<dim>(lattice_, cell));
+    rows_.push_back(cell[0]);
     last_cell_ = cell;
   }
   points_.push_back({static_cast<int>(cells_.size()) - 1, ShapeFunctions<dim>(lattice_.degree(), xi).value});
@@ -48,9 +49,10 @@ std::vector<std::vector<float>> FieldPoints<dim>::components(const RingField& fi
     for (const Point& point : points_) {
       if (point.cell != cell) {
         cell = point.cell;
+        const std::vector<double>& values = field.in_row(rows_[cell]);
         for (int a = 0; a < n_nodes; ++a) {
           const std::size_t node = cells_[cell][a] + sector * sector_nodes;
-          at_nodes[a] = &field.values[n_components * (node < ring_nodes ? node : node - ring_nodes)];
+          at_nodes[a] = &values[n_components * (node < ring_nodes ? node : node - ring_nodes)];
         }
       }
       std::array<double, n_components> sums{};

@@ -39,6 +39,7 @@ class FieldPoints {
   Lattice<dim> lattice_;
   std::array<int, dim> last_cell_{};
   std::vector<RingCellNodes<dim>> cells_;  ///< of consecutive points
+  std::vector<int> rows_;                  ///< of these cells
   std::vector<Point> points_;
 };
 

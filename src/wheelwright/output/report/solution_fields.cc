@@ -21,6 +21,15 @@ Lattice<dim> displacement_lattice(const RollingModel<dim>& model) {
 }
 
 template <int dim>
+std::vector<bool> rows_of_odd_layers(const RollingModel<dim>& model) {
+  if (model.materials.layers().size() == 1) return {};
+  std::vector<bool> result;
+  for (int row = 0; row < model.grid.cells[0]; ++row)
+    result.push_back(model.materials.layer_at(model.grid.middle_of_row(row)) % 2 == 1);
+  return result;
+}
+
+template <int dim>
 RingField vertical_field(const RingField& displacement, double ground_azimuth) {
   const double x = std::cos(ground_azimuth), y = std::sin(ground_azimuth);
   RingField field{1, {}};
@@ -100,6 +109,31 @@ double axial_stress(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
   return stress;
 }
 
+/// Means of the values that cells have at their nodes.
+template <int components>
+class NodalMeans {
+ public:
+  explicit NodalMeans(size_t n_nodes)
+      : sums_(n_nodes, std::array<double, components>{}), counts_(n_nodes, 0) {}
+
+  void add(size_t node, const std::array<double, components>& value) {
+    for (int k = 0; k < components; ++k) sums_[node][k] += value[k];
+    ++counts_[node];
+  }
+
+  std::vector<double> values() const {
+    std::vector<double> result(components * sums_.size(), no_material);
+    for (size_t i = 0; i < sums_.size(); ++i)
+      for (int k = 0; k < components && counts_[i] > 0; ++k)
+        result[components * i + k] = sums_[i][k] / counts_[i];
+    return result;
+  }
+
+ private:
+  std::vector<std::array<double, components>> sums_;
+  std::vector<int> counts_;
+};
+
 /// A cell with material and its column round the ring.
 template <int dim>
 struct RingCell {
@@ -133,14 +167,15 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
   const Lattice<dim> lattice = displacement_lattice(model);
   const PolarGrid<dim>& grid = lattice.grid();
   const std::vector<double> polar = polar_values(lattice, displacement);
-  std::vector<std::array<double, components>> sum(polar.size() / dim, std::array<double, components>{});
-  std::vector<int> count(sum.size(), 0);
+  const std::vector<bool> is_odd_row = rows_of_odd_layers(model);
+  NodalMeans<components> means(polar.size() / dim), odd_means(is_odd_row.empty() ? 0 : polar.size() / dim);
   std::vector<Direction> of_column;
   for (int column = 0; column < grid.ring_columns(); ++column) {
     const double azimuth = column * grid.cell_size()[1];
     of_column.push_back({std::cos(azimuth), std::sin(azimuth)});
   }
   for (int row = 0; row < grid.cells[0]; ++row) {
+    NodalMeans<components>& of_row = is_odd_row.empty() || !is_odd_row[row] ? means : odd_means;
     const MaterialLaw<dim>& law = model.materials.in_row(grid, row);
     const ElasticElement<dim> element(grid, model.degree, {row}, law, model.dilatation);
     const std::vector<RingCell<dim>> cells = active_cells(lattice, domain, row);
@@ -156,17 +191,12 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
         std::copy_n(strain, n_strains<dim>, at_point.begin());
         const auto at_node = in_body_frame(stress<dim>(law, at_point), of_column[cells[c].column],
                                            axial_stress<dim>(law, at_point));
-        for (int k = 0; k < components; ++k) sum[node][k] += at_node[k];
-        ++count[node];
+        of_row.add(node, at_node);
         strain += n_strains<dim>;
       }
     }
   }
-  RingField field{components, std::vector<double>(components * sum.size(), no_material)};
-  for (size_t i = 0; i < sum.size(); ++i)
-    for (int k = 0; k < components && count[i] > 0; ++k)
-      field.values[components * i + k] = sum[i][k] / count[i];
-  return field;
+  return {components, means.values(), is_odd_row, odd_means.values()};
 }
 
 double von_mises_of(std::span<const double> s) {
@@ -366,6 +396,8 @@ template decltype(position_fields<2>) position_fields<2>;
 template decltype(for_each_position<2>) for_each_position<2>;
 template decltype(named_fields<2>) named_fields<2>;
 template Lattice<2> displacement_lattice(const RollingModel<2>&);
+template decltype(rows_of_odd_layers<2>) rows_of_odd_layers<2>;
+template decltype(rows_of_odd_layers<3>) rows_of_odd_layers<3>;
 template decltype(vertical_field<2>) vertical_field<2>;
 template decltype(stress_field<2>) stress_field<2>;
 template decltype(repeated_field<2>) repeated_field<2>;

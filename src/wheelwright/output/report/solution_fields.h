@@ -60,12 +60,17 @@ NamedField von_mises_field(const RingField& stress);
 template <int dim>
 Lattice<dim> displacement_lattice(const RollingModel<dim>& model);
 
+/// Of every row of cells, whether it belongs to a layer of odd number, counted from 0 at the rim: stresses
+/// jump between layers (RingField). Empty if there is only one layer.
+template <int dim>
+std::vector<bool> rows_of_odd_layers(const RollingModel<dim>& model);
+
 /// Component of a displacement towards the ground of one load position [m].
 template <int dim>
 RingField vertical_field(const RingField& displacement, double ground_azimuth);
 
 /// The stress [Pa] of a displacement at the nodes, components as in PositionFields: the mean over the cells
-/// with material around a node.
+/// with material around a node, of one layer.
 template <int dim>
 RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& domain,
                        const RingField& displacement);

@@ -52,8 +52,9 @@ float value_at(const LevelSet<dim>& psi, const std::vector<double>& nodal, const
 
 class PlaneCells {
  public:
-  PlaneCells(const LevelSet<2>& psi, int degree, int cut_subdivisions, FieldPoints<2>& field_points)
-      : psi_(psi), field_points_(field_points) {
+  PlaneCells(const LevelSet<2>& psi, int degree, int cut_subdivisions, const std::vector<bool>& is_odd_row,
+             FieldPoints<2>& field_points)
+      : psi_(psi), is_odd_row_(is_odd_row), field_points_(field_points) {
     const auto polygons = material_polygons(psi, cut_subdivisions);
     const std::vector<MaterialPolygon> squares = parts_of_full_cell(degree);
     for (int cell = 0; cell < psi.lattice.grid().n_cells(); ++cell)
@@ -84,7 +85,8 @@ class PlaneCells {
     const std::vector<double> nodal = psi_.cell_values(cell);
     for (const MaterialPolygon& polygon : polygons) {
       for (const Vec<2>& xi : polygon) {
-        const auto [known, is_new] = numbers_.try_emplace({c[0] + xi[0], c[1] + xi[1]},
+        const double in_odd_row = !is_odd_row_.empty() && is_odd_row_[c[0]];
+        const auto [known, is_new] = numbers_.try_emplace({c[0] + xi[0], c[1] + xi[1], in_odd_row},
                                                           static_cast<std::int32_t>(cells_.points.size()));
         if (is_new) {
           const Vec<2> x = map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi));
@@ -100,14 +102,16 @@ class PlaneCells {
   }
 
   const LevelSet<2>& psi_;
+  const std::vector<bool>& is_odd_row_;
   FieldPoints<2>& field_points_;
   SectorCells<2> cells_;
-  std::map<Vec<2>, std::int32_t> numbers_;  ///< of the points, by their places in units of cells
+  /// Of the points, by their places in units of cells and whether they belong to odd rows.
+  std::map<std::array<double, 3>, std::int32_t> numbers_;
 };
 
 SectorCells<2> sector_cells(const LevelSet<2>& psi, int degree, int cut_subdivisions,
-                            FieldPoints<2>& field_points) {
-  return PlaneCells(psi, degree, cut_subdivisions, field_points).finished();
+                            const std::vector<bool>& is_odd_row, FieldPoints<2>& field_points) {
+  return PlaneCells(psi, degree, cut_subdivisions, is_odd_row, field_points).finished();
 }
 
 std::uint8_t vtk_number(MaterialCellKind kind) {
@@ -123,7 +127,7 @@ std::uint8_t vtk_number(MaterialCellKind kind) {
 }
 
 SectorCells<3> sector_cells(const LevelSet<3>& psi, int degree, int cut_subdivisions,
-                            FieldPoints<3>& field_points) {
+                            const std::vector<bool>&, FieldPoints<3>& field_points) {
   const MaterialCells material = material_cells(psi, cut_subdivisions, degree);
   SectorCells<3> cells{.points = material.points, .psi = {}, .corners = {}, .offsets = {}, .types = {}};
   for (const CellPoint& place : material.places) {
@@ -144,9 +148,10 @@ SectorCells<3> sector_cells(const LevelSet<3>& psi, int degree, int cut_subdivis
 
 template <int dim>
 VtuMesh<dim>::VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int cut_subdivisions,
-                      std::string_view length_unit)
+                      std::string_view length_unit, const std::vector<bool>& is_odd_row)
     : points_(lattice) {
-  const SectorCells<dim> sector_of_cells = sector_cells(psi, lattice.degree(), cut_subdivisions, points_);
+  const SectorCells<dim> sector_of_cells =
+      sector_cells(psi, lattice.degree(), cut_subdivisions, is_odd_row, points_);
   const int n_sectors = lattice.grid().n_sectors, sector_points = static_cast<int>(points_.size());
   const std::size_t n_points = points_.size() * n_sectors;
   if (n_points > std::numeric_limits<std::int32_t>::max() / 3)

@@ -34,7 +34,7 @@ SurfacePosition on_points(const PositionFields<3>& fields, const FieldPoints<3>&
 }
 
 std::string loaded_json(const SolvedShape<2>& solved, const PositionFields<2>& fields) {
-  SectorMesh mesh = sector_mesh(*solved.shape, fields.lattice);
+  SectorMesh mesh = sector_mesh(*solved.shape, solved.solver->model());
   MeshPosition position = on_mesh(mesh, fields);
   return loaded_wheel_json<2>({std::move(mesh), {std::move(position)}});
 }
@@ -48,7 +48,7 @@ std::string loaded_json(const SolvedShape<3>& solved, const PositionFields<3>& f
 }  // namespace
 
 ShownPositions<2>::ShownPositions(const SolvedShape<2>& solved)
-    : wheel_{sector_mesh(*solved.shape, displacement_lattice(solved.solver->model())), {}} {}
+    : wheel_{sector_mesh(*solved.shape, solved.solver->model()), {}} {}
 
 void ShownPositions<2>::add(int, const PositionFields<2>& fields) {
   wheel_.positions.push_back(on_mesh(wheel_.mesh, fields));
