@@ -32,6 +32,14 @@ class Materials {
 
   const std::vector<Layer>& layers() const { return layers_; }
 
+  /// The radii between layers [m].
+  std::vector<double> interfaces() const {
+    std::vector<double> radii;
+    for (auto layer = layers_.begin(); layer + 1 != layers_.end(); ++layer)
+      radii.push_back(layer->outer_radius);
+    return radii;
+  }
+
   /// The index of the layer in which a circle lies.
   int layer_at(double radius) const {
     int layer = 0;

@@ -100,18 +100,32 @@ text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:
 .material{fill:#3b6ea5;fill-rule:evenodd;stroke:#1f3d5c;stroke-width:8;stroke-linejoin:round}
 .former{fill:none;stroke:#d1495b;stroke-width:11;stroke-dasharray:40 25}
 .rim{fill:none;stroke:#24292f;stroke-width:30}
+.layer{fill:none;stroke:#e8b04b;stroke-width:12}
 </style>
 )";
 
 std::string wheel_panel(const PolarGrid<2>& grid, const WheelState<2>& wheel, double centre_x,
-                        std::string_view overlay) {
+                        const std::vector<double>& interfaces, std::string_view overlay) {
   const double scale = 0.5 * wheel_diameter / grid.outer_radius;
   std::string panel = fmt::format("<g transform=\"translate({} {}) scale({})\">\n", centre_x,
                                   top + 0.5 * wheel_diameter, 1.0 / units_per_pixel);
-  panel += fmt::format("<path class=\"material\" d=\"{}{}\"/>\n", circle_paths(grid, wheel.boundary, scale),
-                       outline_path(thinned(wheel.boundary, scale)));
-  panel += fmt::format("<path class=\"rim\" d=\"{}\"/>\n",
-                       circle_path(grid.inner_radius * scale * units_per_pixel, 0));
+  const std::string material =
+      circle_paths(grid, wheel.boundary, scale) + outline_path(thinned(wheel.boundary, scale));
+  panel += fmt::format("<path class=\"material\" d=\"{}\"/>\n", material);
+  const auto circle = [&](std::string_view kind, double radius) {
+    return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", kind,
+                       circle_path(radius * scale * units_per_pixel, 0));
+  };
+  if (!interfaces.empty()) {
+    const std::string id = fmt::format("material-{}", centre_x);
+    panel += fmt::format(
+        "<clipPath id=\"{0}\"><path d=\"{1}\" clip-rule=\"evenodd\"/></clipPath>\n<g "
+        "clip-path=\"url(#{0})\">\n",
+        id, material);
+    for (const double radius : interfaces) panel += circle("layer", radius);
+    panel += "</g>\n";
+  }
+  panel += circle("rim", grid.inner_radius);
   panel += overlay;
   return panel + "</g>\n";
 }
@@ -221,8 +235,9 @@ std::string comparison_svg(const PolarGrid<2>& grid, const Comparison<2>& compar
   const double scale = 0.5 * wheel_diameter / grid.outer_radius;
   const std::string former = fmt::format("<path class=\"former\" d=\"{}\"/>\n",
                                          outline_path(thinned(comparison.before.boundary, scale)));
-  return with_numbers(comparison, wheel_panel(grid, comparison.before, first_middle, ""),
-                      wheel_panel(grid, comparison.after, second_middle, former));
+  return with_numbers(comparison,
+                      wheel_panel(grid, comparison.before, first_middle, comparison.interfaces, ""),
+                      wheel_panel(grid, comparison.after, second_middle, comparison.interfaces, former));
 }
 
 std::string comparison_svg(const PolarGrid<3>& grid, const Comparison<3>& comparison) {

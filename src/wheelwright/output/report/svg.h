@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "wheelwright/shape/geometry/contour.h"
 #include "wheelwright/shape/surface/surface_mesh.h"
@@ -48,6 +49,7 @@ struct Comparison {
   std::string objective_name;  ///< e.g. "strain energy"
   std::string objective_unit;  ///< e.g. "J/m"
   WheelState<dim> before, after;
+  std::vector<double> interfaces = {};  ///< radii between layers of materials, drawn as circles in 2D [m]
 };
 
 /// The comparison as an SVG document for pages and README files. In 2D the holes of the first wheel are

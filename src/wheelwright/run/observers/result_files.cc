@@ -64,7 +64,8 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                      .objective_name = std::string(name(minimized)),
                                      .objective_unit = shown_unit(minimized, run.study.source.wheel).name,
                                      .before = before,
-                                     .after = after}));
+                                     .after = after,
+                                     .interfaces = run.study.model().materials.interfaces()}));
 }
 
 /// The wheel under every load case except the first: its pictures, in the folder load_cases.
