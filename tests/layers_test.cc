@@ -198,7 +198,7 @@ TEST(Layers, WithAHoleAcrossThemConverge) {
     energies[level] = solved(model, generic_hole(model.grid))->strain_energy()[0];
   }
   // The stress is singular where the interface meets the edge of the hole.
-  EXPECT_LT(std::abs(energies[2] / energies[1] - 1), 2e-3);
+  EXPECT_LT(std::abs(energies[2] / energies[1] - 1), 5e-3);
   EXPECT_LT(std::abs(energies[2] - energies[1]), 0.6 * std::abs(energies[1] - energies[0]));
 }
 
@@ -229,6 +229,16 @@ TEST(Layers, EndOnLinesOfFinerGrids) {
   model.grid.cells[0] = 15;
   EXPECT_FALSE(model.materials.fit(model.grid));
   EXPECT_FALSE(RollingProblem<3>::create(model));
+}
+
+/// The response of a stiff band on a soft layer does not decay within half the ring: a band and its bed must
+/// not be condensed together.
+TEST(Layers, AreNotCondensedTogetherAtTheTread) {
+  auto model = paper_model(14, 192);
+  model.materials = layered<2>({{0.33, {2e6, 0.3}}, {0.34, {200e9, 0.3}}});
+  EXPECT_TRUE(RollingProblem<2>::create(model));
+  model.tread.rows = 2;
+  EXPECT_FALSE(RollingProblem<2>::create(model));
 }
 
 CaseResult layered_case(const std::string& layers, const std::string& more = "") {

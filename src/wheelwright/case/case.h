@@ -45,8 +45,8 @@ struct MaterialLayer {
   std::string name = {};
   std::optional<double> inner_radius = {};  ///< absent: the rim
   std::optional<double> outer_radius = {};  ///< absent: the tread
-  double youngs_modulus = 0;                ///< [Pa]
-  double poissons_ratio = 0;
+  double youngs_modulus = 200e6;            ///< [Pa]
+  double poissons_ratio = 0.48;
   std::optional<double> density = {};  ///< [kg/m^3]
   LayerHoles holes = LayerHoles::allowed;
   bool operator==(const MaterialLayer&) const = default;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/section_conflicts.h"
 
@@ -95,6 +96,21 @@ void check_lines(const Case& c, Conflicts& found) {
   }
 }
 
+/// The condensed rows at the tread, of which there are several with an annulus, must be of one material.
+void check_annulus(const Case& c, Conflicts& found) {
+  const PlacedMaterial outermost = placed_materials(c).back();
+  const double thickness = outermost.outer_radius - outermost.inner_radius;
+  if (!outermost.layer && c.layers.empty()) return;
+  if (!wants_annulus(c) || annulus_thickness(c) < thickness * (1 + 1e-9)) return;
+  found.push_back(
+      {{key_of(&Objective::annulus), key_of(&Objective::uniformity_annulus),
+        table_of<MaterialLayer>(outermost.layer.value_or(0))},
+       fmt::format("the annulus of {:.6g} m reaches beyond the outermost material, which is {:.6g} m "
+                   "thick",
+                   annulus_thickness(c), thickness),
+       fmt::format("use objective.annulus <= {:.6g}", thickness)});
+}
+
 /// Whether some of the ring lies in no layer.
 bool has_rest(const Case& c) {
   return std::ranges::any_of(placed_materials(c),
@@ -110,6 +126,7 @@ void material_conflicts(const Case& c, Conflicts& found) {
     if (placed.layer)
       check_compressibility(c, placed.material, key_of(&MaterialLayer::poissons_ratio, *placed.layer), found);
   check_lines(c, found);
+  check_annulus(c, found);
 }
 
 }  // namespace wheelwright

@@ -26,8 +26,9 @@ class Materials {
   Materials(const Material& everywhere) : Materials(std::make_shared<IsotropicLaw<dim>>(everywhere)) {}
   Materials(std::shared_ptr<const MaterialLaw<dim>> everywhere) : layers_{{0, std::move(everywhere)}} {}
 
-  /// Layers from the rim to the tread, at least one. The radii between them must be radii of lines of the
-  /// model's grid (PolarGrid::nearest_line).
+  /// Layers from the rim to the tread, at least one. The radii between them must be those of lines of the
+  /// model's grid (fit()), below its condensed rows (TreadGrid): the response of a stiff band on a soft layer
+  /// would not decay within half the ring.
   explicit Materials(std::vector<Layer> layers) : layers_(std::move(layers)) {}
 
   const std::vector<Layer>& layers() const { return layers_; }

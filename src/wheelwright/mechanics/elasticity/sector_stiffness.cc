@@ -35,6 +35,8 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
     elements_.emplace_back(grid, degree, std::array<int, dim>{radial}, law(radial), dilatation);
     stiffness_.push_back(bulk(elements_.back(), law(radial), rule));
+    fillings_.push_back(stiffness_.back());
+    for (double& x : fillings_.back().entries()) x *= 1e-6;
   }
   const double column_angle = grid.cell_size()[1];
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
@@ -71,12 +73,16 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
   for (const GhostFace& face : domain.ghost_faces) {
     if (!space.penalizes(face) || table.ghost().xi == 0) continue;
     const int radial = grid.cell_position(face.minus)[0];
-    // Derivatives jump where two materials meet.
-    if (face.axis == 0 && table.materials().is_interface(grid, radial)) continue;
     const auto add = [&](std::vector<int> nodes, const Matrix& stiffness) {
       pattern.couple(nodes);
       sector.ghosts.push_back({std::move(nodes), &stiffness});
     };
+    if (face.axis == 0 && table.materials().is_interface(grid, radial)) {
+      for (const int cell : {face.minus, face.plus})
+        if (domain.kinds[cell] == CellKind::cut)
+          add(space.cell_nodes(cell), table.filling(grid.cell_position(cell)[0]));
+      continue;
+    }
     if (space.wraps(face)) {
       const GhostHalves& halves = table.divided_face_ghost(radial);
       add(space.cell_and_face_nodes(face.minus, Face::last), halves.minus);

@@ -38,6 +38,11 @@ template <int dim>
 std::optional<Failure> unsupported_material(const RollingModel<dim>& model) {
   if (!model.materials.fit(model.grid))
     return Failure{FailureReason::unsupported_model, "layers of materials end between the lines of the grid"};
+  const int rows = model.grid.cells[0];
+  for (int row = rows - model.tread.rows; row + 1 < rows; ++row)
+    if (model.materials.is_interface(model.grid, row))
+      return Failure{FailureReason::unsupported_model,
+                     "materials meet in the rows that are condensed at the tread"};
   for (int row = 0; row < model.grid.cells[0]; ++row) {
     const MaterialLaw<dim>& law = model.materials.in_row(model.grid, row);
     if (dim == 3 && law.isotropic() && law.isotropic()->plane == Plane::stress)

@@ -7,6 +7,7 @@
 
 #include "wheelwright/cad/drawing/composed_level_set.h"
 #include "wheelwright/case/drawn_shapes.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
