@@ -126,6 +126,11 @@ Case with_tables(Case c, const SectionArray<Struct>& section) {
     tables[3].inner_radius = 0.24;
     tables[3].outer_radius = 0.3;
   }
+  if constexpr (std::is_same_v<Struct, MaterialLayer>) {
+    tables.resize(2, section.example);
+    tables[0].inner_radius.reset();
+    tables[0].outer_radius = 0.22;
+  }
   if constexpr (requires { tables[0].order; })
     for (std::size_t i = 0; i < tables.size(); ++i) tables[i].order = static_cast<int>(i) + 1;
   if (c.holes == Holes{}) c.holes.rings = a_ring;

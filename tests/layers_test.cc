@@ -267,6 +267,52 @@ TEST(Layers, OfACaseFillTheRing) {
   EXPECT_GT(effective_contact_modulus(*good.value), tread_material(*good.value).contact_modulus());
 }
 
+/// Neighbours without holes are one band, up to the tread: no edge of a band lies between them.
+TEST(Layers, WithoutHolesAreBands) {
+  const std::string constants = "youngs_modulus = 30e6\npoissons_ratio = 0.4\nholes = \"none\"\n",
+                    layer = "[[material.layer]]\n" + constants;
+  const auto of = [&](const std::string& layers) {
+    const auto result = layered_case(layers);
+    EXPECT_TRUE(result.value) << result.problems.front().text();
+    return bands(*result.value);
+  };
+  const Bands at_tread =
+      of(layer + "inner_radius = 0.08\nouter_radius = 0.09\n" + layer + "inner_radius = 0.09\n");
+  EXPECT_NEAR(at_tread.tread.thickness, 0.02, 1e-12);
+  EXPECT_TRUE(at_tread.between.empty());
+  const Bands between = of(layer + "inner_radius = 0.07\nouter_radius = 0.08\n");
+  ASSERT_EQ(between.between.size(), 1u);
+  EXPECT_EQ(between.between[0].inner, 0.07);
+  EXPECT_EQ(between.between[0].outer, 0.08);
+}
+
+/// A drawn hole across a layer without holes ends at it, and no shape of a run opens it.
+TEST(Layers, WithoutHolesStaySolid) {
+  const auto good = parse_case(
+      "[wheel]\ninner_radius = 0.05\nouter_radius = 0.1\nwidth = 0.05\nsectors = 8\n[load]\nforce = 500\n"
+      "[material]\nyoungs_modulus = 60e6\n[[material.layer]]\ninner_radius = 0.07\nouter_radius = 0.08\n"
+      "youngs_modulus = 900e6\npoissons_ratio = 0.4\nholes = \"none\"\n[[holes.ring]]\ncount = 8\n"
+      "center_radius = 0.075\nradius = 0.012\n[grid]\nradial_cells = 20\nangular_cells = 160\n"
+      "[optimizer]\niterations = 5\ntread_band = 0.005\n",
+      "layer.toml");
+  ASSERT_TRUE(good.value) << good.problems.front().text();
+  const auto study = make_study<2>(*good.value);
+  ASSERT_TRUE(study);
+  const auto optimizer = optimizer_of(*study);
+  auto state = optimizer.start(study->initial, [](const auto&, const auto&) {});
+  ASSERT_TRUE(state) << state.failure().detail;
+  const double before = state->evaluation.function("objective").value;
+  optimizer.run(
+      *state, [](const auto&, const auto&) {}, [] { return false; });
+  EXPECT_LT(state->evaluation.function("objective").value, before);
+  const LevelSet<2>& shape = state->shape;
+  for (int node = 0; node < shape.lattice.n_nodes(); ++node) {
+    const double radius = shape.lattice.polar_point(node)[0];
+    if (radius < 0.07 - 1e-9 || radius > 0.08 + 1e-9) continue;
+    EXPECT_LT(shape.values[node], 0) << radius;
+  }
+}
+
 TEST(Layers, ThatCannotBeAreRefusedByKey) {
   const auto refuses = [](const std::string& layers, const std::string& key) {
     const auto result = layered_case(layers);

@@ -213,6 +213,23 @@ PolarGrid<dim> polar_grid(const Case& c) {
 template decltype(polar_grid<2>) polar_grid<2>;
 template decltype(polar_grid<3>) polar_grid<3>;
 
+namespace {
+
+/// The annuli of the layers without holes, from the rim to the tread; neighbours are one.
+std::vector<SolidAnnulus> solid_layers(const Case& c) {
+  std::vector<SolidAnnulus> result;
+  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
+    if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
+    if (!result.empty() && inner <= result.back().outer)
+      result.back().outer = outer;
+    else
+      result.push_back({inner, outer});
+  }
+  return result;
+}
+
+}  // namespace
+
 Bands bands(const Case& c) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;
   const double with_annulus = wants_annulus(c) ? annulus_thickness(c) + ring / 28 : 0;
@@ -220,14 +237,16 @@ Bands bands(const Case& c) {
   Bands result{
       .rim = {c.optimizer.rim_band.value_or(std::max(usual, wall)), 1},
       .tread = {c.optimizer.tread_band.value_or(std::max({usual, with_annulus, wall})), tread_rows(c) + 1}};
-  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
-    if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
-    if (inner <= c.wheel.inner_radius + result.rim.thickness)
-      result.rim.thickness = std::max(result.rim.thickness, outer - c.wheel.inner_radius);
-    else if (outer >= c.wheel.outer_radius - result.tread.thickness)
-      result.tread.thickness = std::max(result.tread.thickness, c.wheel.outer_radius - inner);
-    else
-      result.between.push_back({inner, outer});
+  result.between = solid_layers(c);
+  auto& between = result.between;
+  const Wheel& w = c.wheel;
+  while (!between.empty() && between.front().inner <= w.inner_radius + result.rim.thickness) {
+    result.rim.thickness = std::max(result.rim.thickness, between.front().outer - w.inner_radius);
+    between.erase(between.begin());
+  }
+  while (!between.empty() && between.back().outer >= w.outer_radius - result.tread.thickness) {
+    result.tread.thickness = std::max(result.tread.thickness, w.outer_radius - between.back().inner);
+    between.pop_back();
   }
   return result;
 }

@@ -31,6 +31,7 @@ std::string name_of_layer(const Case& c, std::size_t layer) {
 }
 
 std::vector<PlacedMaterial> placed_materials(const Case& c) {
+  if (c.layers.empty()) return {{c.wheel.inner_radius, c.wheel.outer_radius, c.material, std::nullopt}};
   std::vector<PlacedMaterial> result;
   double radius = c.wheel.inner_radius;
   const double least = 1e-9 * c.wheel.outer_radius;

@@ -7,7 +7,7 @@ namespace wheelwright {
 
 namespace {
 
-constexpr std::array<Preset, 9> all{{
+constexpr std::array<Preset, 12> all{{
     {"paper16", "the wheel of the paper with 16 holes", R"(# The wheel of the paper: 16 round holes.
 
 title = "16 holes"
@@ -233,6 +233,136 @@ angle = 11
 [grid]
 radial_cells = 36
 angular_cells = 480
+)"},
+    {"caster-tyre", "a caster of 200 mm, polyurethane on aluminium, for 250 kg",
+     R"(# A caster of 200 mm x 50 mm: a tyre of polyurethane, 10 mm thick, bonded to a core of aluminium with holes.
+
+title = "Caster with a tyre"
+
+[wheel]
+inner_radius = 0.02
+outer_radius = 0.1
+width = 0.05
+sectors = 8
+
+[material]
+youngs_modulus = 70e9
+poissons_ratio = 0.33
+density = 2700
+
+[[material.layer]]
+name = "tyre"
+inner_radius = 0.09
+youngs_modulus = 40e6
+poissons_ratio = 0.48
+density = 1200
+holes = "none"
+
+[load]
+mass = 250
+
+[[holes.ring]]
+count = 8
+center_radius = 0.056
+radius = 0.014
+
+[grid]
+radial_cells = 32
+angular_cells = 384
+)"},
+    {"resilient-tram", "a steel wheel of a tram with rubber between hub and tyre",
+     R"(# A resilient wheel of a tram: rubber between the steel of the hub and the steel of the tyre. The hub has holes.
+
+title = "Resilient tram wheel"
+
+[wheel]
+inner_radius = 0.1
+outer_radius = 0.33
+width = 0.1
+sectors = 12
+
+[material]
+youngs_modulus = 210e9
+poissons_ratio = 0.3
+density = 7850
+
+[[material.layer]]
+name = "rubber"
+inner_radius = 0.23
+outer_radius = 0.26
+youngs_modulus = 15e6
+poissons_ratio = 0.49
+density = 1150
+holes = "none"
+
+[[material.layer]]
+name = "tyre"
+inner_radius = 0.26
+youngs_modulus = 210e9
+poissons_ratio = 0.3
+density = 7850
+holes = "none"
+
+[load]
+force = 50e3
+
+[[holes.ring]]
+count = 12
+center_radius = 0.165
+radius = 0.03
+
+[grid]
+radial_cells = 46
+angular_cells = 480
+)"},
+    {"shear-band", "an airless tyre: soft spokes, a stiff shear band, a rubber tread",
+     R"(# An airless tyre: soft spokes carry a stiff shear band below a rubber tread.
+
+title = "Shear band"
+
+[wheel]
+inner_radius = 0.2
+outer_radius = 0.3
+width = 0.16
+sectors = 24
+
+[material]
+youngs_modulus = 80e6
+poissons_ratio = 0.45
+density = 1200
+
+[[material.layer]]
+name = "shear band"
+inner_radius = 0.28
+outer_radius = 0.29
+youngs_modulus = 2e9
+poissons_ratio = 0.35
+density = 1500
+holes = "none"
+
+[[material.layer]]
+name = "tread"
+inner_radius = 0.29
+youngs_modulus = 10e6
+poissons_ratio = 0.49
+density = 1150
+holes = "none"
+
+[load]
+mass = 150
+
+[[shape.annulus]]
+
+[[shape.spoke]]
+kind = "curved"
+count = 24
+thickness = 0.008
+angle = 8
+bend = 30
+
+[grid]
+radial_cells = 40
+angular_cells = 576
 )"},
 }};
 
