@@ -22,6 +22,7 @@ namespace wheelwright {
 namespace {
 
 using testing::AnyWheels;
+using testing::LayeredWheels;
 using testing::RandomWheels;
 
 /// Changes a case as the remedy of a problem says: "take KEY = VALUE", "take at most LOAD N" or "remove one
@@ -205,9 +206,10 @@ AnyEnd any_end_of(const Case& drawn) {
 }
 
 /// Every wheel is solved, or told why not in words of the case or of physics, in 60 s of processor time.
+template <class Wheels>
 void expect_a_reason_of_each(int first, int n, unsigned seed) {
   const ThreadLimit one_thread(1);
-  AnyWheels wheels(seed);
+  Wheels wheels(seed);
   std::map<std::string, int> count;
   double longest = 0;
   for (int k = 0; k < first + n; ++k) {
@@ -235,10 +237,13 @@ TEST(AnyWheels, ContactOfTooFewColumnsIsNamed) {
   EXPECT_EQ(any_end_of(wheels.draw()).kind, to_string(FailureReason::inaccurate_solution));
 }
 
-TEST(AnyWheels, EndSolvedOrWithAReason) { expect_a_reason_of_each(0, 8, 3); }
-TEST(AnyWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each(0, 300, 4); }
-TEST(AnyWheels, OthersEndSolvedOrWithAReasonSlow) { expect_a_reason_of_each(0, 300, 5); }
-TEST(AnyWheels, MoreEndSolvedOrWithAReasonSlow) { expect_a_reason_of_each(0, 300, 21); }
+TEST(AnyWheels, EndSolvedOrWithAReason) { expect_a_reason_of_each<AnyWheels>(0, 8, 3); }
+TEST(AnyWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<AnyWheels>(0, 300, 4); }
+TEST(AnyWheels, OthersEndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<AnyWheels>(0, 300, 5); }
+TEST(AnyWheels, MoreEndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<AnyWheels>(0, 300, 21); }
+
+TEST(LayeredWheels, EndSolvedOrWithAReason) { expect_a_reason_of_each<LayeredWheels>(0, 8, 3); }
+TEST(LayeredWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<LayeredWheels>(0, 300, 7); }
 
 }  // namespace
 }  // namespace wheelwright
