@@ -13,7 +13,9 @@
 #include "wheelwright/quantities/analysis/finer_grid.h"
 #include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
+#include "wheelwright/run/study/layer_shapes.h"
 #include "wheelwright/run/study/study.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {
@@ -311,6 +313,26 @@ TEST(Layers, WithoutHolesStaySolid) {
     if (radius < 0.07 - 1e-9 || radius > 0.08 + 1e-9) continue;
     EXPECT_LT(shape.values[node], 0) << radius;
   }
+}
+
+/// The parts of a shape make up the whole, also where a hole crosses from one to another.
+TEST(Layers, AreShapesOfTheirOwn) {
+  const auto result = layered_case(
+      "[[material.layer]]\nname = \"band\"\ninner_radius = 0.07\nouter_radius = 0.08\nyoungs_modulus = 9e6\n"
+      "poissons_ratio = 0.4\n",
+      "[[holes.circle]]\ncenter = [0.07, 0.01]\nradius = 0.006\n[optimizer]\ntread_band = 0.005\n");
+  ASSERT_TRUE(result.value) << result.problems.front().text();
+  const LevelSet<2> whole = initial_shape<2>(*result.value);
+  const auto parts = layer_shapes(*result.value, whole);
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[0].name, "material");
+  EXPECT_EQ(parts[1].name, "band");
+  EXPECT_EQ(parts[2].name, "material 2");
+  EXPECT_NEAR(parts[1].shape.lattice.grid().inner_radius, 0.07, 1e-15);
+  double sum = 0;
+  for (const LayerShape<2>& part : parts) sum += material_measure(part.shape);
+  EXPECT_NEAR(sum / material_measure(whole), 1, 1e-12);
+  EXPECT_LT(material_measure(parts[1].shape), sector_measure<2>(parts[1].shape.lattice.grid()));
 }
 
 TEST(Layers, ThatCannotBeAreRefusedByKey) {

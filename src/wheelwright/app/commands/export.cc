@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <ranges>
 
@@ -19,6 +20,7 @@
 #include "wheelwright/output/export/fit_surface.h"
 #include "wheelwright/output/export/formats.h"
 #include "wheelwright/output/export/plugin.h"
+#include "wheelwright/run/study/layer_shapes.h"
 #include "wheelwright/run/study/roughness_warning.h"
 
 namespace wheelwright {
@@ -87,6 +89,13 @@ std::string check_tolerance(const std::string& text) {
              : fmt::format("must be a length from {} to {} mm", min_tolerance, max_tolerance);
 }
 
+/// A model and the name of its files, without the extension.
+template <class Model>
+struct Named {
+  std::string stem;
+  Model model;
+};
+
 class ExportCommand : public Subcommand {
  public:
   ExportCommand()
@@ -145,43 +154,88 @@ class ExportCommand : public Subcommand {
                 finest * 1e3);
       return exit_usage;
     }
-    const auto outline = cad::fit_outline(input.shape, accuracy);
-    if (!outline) return refuse({outline.failure()});
-    const auto report = cad::check_outline(*outline, input.shape, accuracy);
-    if (!report) return refuse(report.failure());
-    const WheelModel wheel{.title = title(input),
-                           .program = program(),
-                           .shape = input.shape,
-                           .outline = *outline,
-                           .width = input.source.wheel.width,
-                           .tolerance = accuracy};
-    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*report));
-    warn_of_pieces(report->bodies);
-    if (const auto warning = roughness_warning(input.source, report->roughness); !warning.empty())
+    const auto whole = outlined(input, input.shape, "", accuracy);
+    if (!whole) return refuse(whole.failure());
+    const auto& [wheel, report] = *whole;
+    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(report));
+    warn_of_pieces(report.bodies);
+    if (const auto warning = roughness_warning(input.source, report.roughness); !warning.empty())
       print_warning(stderr, warning);
-    return write(wheel, chosen, input.name);
+    std::vector<Named<WheelModel>> models{{input.name, wheel}};
+    for (const LayerShape<2>& layer : layer_shapes(input.source, input.shape)) {
+      const auto part = outlined(input, layer.shape, layer.name, accuracy);
+      if (part)
+        models.push_back({stem(input.name, layer.name), part->first});
+      else
+        warn_of_layer(layer.name, part.failure().front().what);
+    }
+    return write(models, chosen);
   }
 
   int export_wheel(const WheelInput<3>& input) const {
     const Formats chosen = formats(default_formats_3d);
     if (!can_hold_or_tell<SurfaceModel>(chosen)) return exit_usage;
-    const auto fitted = fit_surface(input.shape, input.source.grid.degree, tolerance(default_tolerance_3d));
-    if (!fitted) return refuse({{fitted.failure().what}});
-    const SurfaceModel wheel{.title = title(input),
-                             .program = program(),
-                             .shape = input.shape,
-                             .surface = fitted->surface,
-                             .parts = fitted->parts,
-                             .map_degree = input.source.grid.degree};
-    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*fitted));
-    warn_of_pieces(fitted->report.bodies);
-    return write(wheel, chosen, input.name);
+    const auto whole = surfaced(input, input.shape, "");
+    if (!whole) return refuse({{whole.failure().what}});
+    const auto& [wheel, fitted] = *whole;
+    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(fitted));
+    warn_of_pieces(fitted.report.bodies);
+    std::vector<Named<SurfaceModel>> models{{input.name, wheel}};
+    for (const LayerShape<3>& layer : layer_shapes(input.source, input.shape)) {
+      const auto part = surfaced(input, layer.shape, layer.name);
+      if (part)
+        models.push_back({stem(input.name, layer.name), part->first});
+      else
+        warn_of_layer(layer.name, part.failure().what);
+    }
+    return write(models, chosen);
+  }
+
+  /// The model of a shape and what its outline is worth.
+  static Expected<std::pair<WheelModel, cad::OutlineReport>, std::vector<cad::OutlineFault>> outlined(
+      const WheelInput<2>& input, const LevelSet<2>& shape, const std::string& layer, double accuracy) {
+    const auto outline = cad::fit_outline(shape, accuracy);
+    if (!outline) return std::vector{outline.failure()};
+    auto report = cad::check_outline(*outline, shape, accuracy);
+    if (!report) return report.failure();
+    return std::pair(WheelModel{.title = title(input, layer),
+                                .program = program(),
+                                .shape = shape,
+                                .outline = *outline,
+                                .width = input.source.wheel.width,
+                                .tolerance = accuracy},
+                     *std::move(report));
+  }
+
+  Expected<std::pair<SurfaceModel, FittedSurface>, SurfaceRefusal> surfaced(const WheelInput<3>& input,
+                                                                            const LevelSet<3>& shape,
+                                                                            const std::string& layer) const {
+    auto fitted = fit_surface(shape, input.source.grid.degree, tolerance(default_tolerance_3d));
+    if (!fitted) return fitted.failure();
+    return std::pair(SurfaceModel{.title = title(input, layer),
+                                  .program = program(),
+                                  .shape = shape,
+                                  .surface = fitted->surface,
+                                  .parts = fitted->parts,
+                                  .map_degree = input.source.grid.degree},
+                     *std::move(fitted));
+  }
+
+  static std::string stem(const std::string& wheel, std::string layer) {
+    for (char& c : layer)
+      if (!std::isalnum(static_cast<unsigned char>(c))) c = '-';
+    return wheel + "-" + layer;
+  }
+
+  static void warn_of_layer(const std::string& layer, const std::string& why) {
+    print_warning(stderr, fmt::format("no file of {} by itself: {}", layer, why));
   }
 
   template <int dim>
-  static std::string title(const WheelInput<dim>& input) {
+  static std::string title(const WheelInput<dim>& input, const std::string& layer) {
     const std::string own = input.source.title.empty() ? input.name : input.source.title;
-    return fmt::format("{}, {}", without_control_characters(own), input.which);
+    return fmt::format("{}, {}{}{}", without_control_characters(own), input.which, layer.empty() ? "" : ", ",
+                       layer);
   }
 
   static std::string program() { return fmt::format("wheelwright {}", version()); }
@@ -198,23 +252,24 @@ class ExportCommand : public Subcommand {
 
   /// Creates the contents of all files before it writes the first.
   template <class Model>
-  int write(const Model& wheel, const Formats& formats, const std::string& stem) const {
+  int write(const std::vector<Named<Model>>& models, const Formats& formats) const {
     const fs::path folder = output_ ? fs::path(*output_) : fs::path(".");
     std::vector<std::pair<fs::path, std::string>> files;
-    for (const ExportFormat* format : formats) {
-      const fs::path path = folder / fmt::format("{}.{}", stem, format->name);
-      if (!force_ && has_entry(path)) {
-        print_err("{}: exists already; choose another folder with --output, or replace it with --force\n",
-                  path.string());
-        return exit_refused;
+    for (const auto& [stem, model] : models)
+      for (const ExportFormat* format : formats) {
+        const fs::path path = folder / fmt::format("{}.{}", stem, format->name);
+        if (!force_ && has_entry(path)) {
+          print_err("{}: exists already; choose another folder with --output, or replace it with --force\n",
+                    path.string());
+          return exit_refused;
+        }
+        try {
+          files.emplace_back(path, file(*format, model));
+        } catch (const MissingPlugin& missing) {
+          print_err("wheelwright {}: {}: {}\n", name(), format->name, missing.what());
+          return exit_refused;
+        }
       }
-      try {
-        files.emplace_back(path, file(*format, wheel));
-      } catch (const MissingPlugin& missing) {
-        print_err("wheelwright {}: {}: {}\n", name(), format->name, missing.what());
-        return exit_refused;
-      }
-    }
     if (!is_there(folder)) make_folder(folder);
     for (const auto& [path, bytes] : files) {
       write_atomically(path, bytes);

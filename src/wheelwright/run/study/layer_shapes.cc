@@ -1,0 +1,26 @@
+#include "wheelwright/run/study/layer_shapes.h"
+
+#include "wheelwright/case/layers.h"
+#include "wheelwright/shape/geometry/annulus.h"
+
+namespace wheelwright {
+
+template <int dim>
+std::vector<LayerShape<dim>> layer_shapes(const Case& c, const LevelSet<dim>& shape) {
+  std::vector<LayerShape<dim>> result;
+  if (c.layers.empty()) return result;
+  const PolarGrid<dim>& grid = shape.lattice.grid();
+  int n_rests = 0;
+  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
+    std::string name = layer ? name_of_layer(c, *layer) : "material";
+    if (!layer && ++n_rests > 1) name += " " + std::to_string(n_rests);
+    result.push_back(
+        {std::move(name), in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line)});
+  }
+  return result;
+}
+
+template decltype(layer_shapes<2>) layer_shapes<2>;
+template decltype(layer_shapes<3>) layer_shapes<3>;
+
+}  // namespace wheelwright
