@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "wheelwright/output/report/lit_wheel.h"
 #include "wheelwright/output/report/solution_fields.h"
@@ -218,6 +219,31 @@ TEST(VtuFile3D, HoldsCellsOfTheMaterialWithTheirFields) {
   const auto connectivity = array_of<std::int32_t>(file, "connectivity");
   EXPECT_EQ(static_cast<std::size_t>(offsets.back()), connectivity.size());
   EXPECT_EQ(3u * (1 + *std::ranges::max_element(connectivity)), array_of<float>(file, "Points").size());
+}
+
+/// A field that is 0 in some rows and 1 in the others has no other value anywhere, and one value in every
+/// cell.
+TEST(VtuFile3D, FieldsMayJumpBetweenRows) {
+  const auto model = asymmetric_model(2);
+  const auto psi = asymmetric_shape(model.grid);
+  const Lattice<3> lattice = displacement_lattice(model);
+  const std::size_t n_nodes = static_cast<std::size_t>(lattice.n_nodes()) * model.grid.n_sectors;
+  std::vector<bool> is_odd_row(model.grid.cells[0], false);
+  is_odd_row[1] = true;
+  const NamedField layer{
+      "layer", "1", {1, std::vector<double>(n_nodes, 0), is_odd_row, std::vector<double>(n_nodes, 1)}};
+  const std::string file = VtuMesh<3>(psi, lattice, 2, "m", is_odd_row).file({&layer, 1});
+  const auto values = array_of<float>(file, "layer_1");
+  const auto connectivity = array_of<std::int32_t>(file, "connectivity");
+  const auto offsets = array_of<std::int32_t>(file, "offsets");
+  std::set<float> all;
+  int begin = 0;
+  for (const int end : offsets) {
+    for (int k = begin; k < end; ++k) EXPECT_EQ(values[connectivity[k]], values[connectivity[begin]]);
+    all.insert(values[connectivity[begin]]);
+    begin = end;
+  }
+  EXPECT_EQ(all, (std::set<float>{0, 1}));
 }
 
 TEST(VtpFile, HoldsAClosedSurfaceWithItsFields) {

@@ -10,6 +10,7 @@
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/lu_factor.h"
+#include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
 #include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
@@ -202,6 +203,33 @@ TEST(Layers, WithAHoleAcrossThemConverge) {
   // The stress is singular where the interface meets the edge of the hole.
   EXPECT_LT(std::abs(energies[2] / energies[1] - 1), 5e-3);
   EXPECT_LT(std::abs(energies[2] - energies[1]), 0.6 * std::abs(energies[1] - energies[0]));
+}
+
+/// Across an interface the traction is continuous and the stress along it jumps.
+TEST(Layers, HaveStressesOfTheirOwnAtAnInterface) {
+  auto model = bushing(28, 192);
+  model.materials = layered<2>({{0.27, {200e6, 0.3}}, {0.34, {10e6, 0.45}}});
+  const auto state = solved(model, full(model.grid));
+  const RingField stress = stress_field(model, state->domain(), state->displacement().at_nodes(0));
+  const Lattice<2> lattice = displacement_lattice(model);
+  const int line = lattice.degree() * model.grid.nearest_line(0.27).line;
+  double traction = 0, traction_jump = 0, hoop_jump = 0;
+  for (int k = 0; k < lattice.nodes()[1] * model.grid.n_sectors; ++k) {
+    const size_t node = ring_node<2>(lattice, {line, k});
+    const double azimuth = k * lattice.spacing()[1], c = std::cos(azimuth), s = std::sin(azimuth);
+    const auto parts = [&](const std::vector<double>& values) {
+      const double* t = &values[stress.components * node];  // xx, yy, zz, xy
+      return std::array{c * c * t[0] + s * s * t[1] + 2 * c * s * t[3],
+                        c * s * (t[1] - t[0]) + (c * c - s * s) * t[3],
+                        s * s * t[0] + c * c * t[1] - 2 * c * s * t[3]};
+    };
+    const auto inside = parts(stress.in_row(line / 2 - 1)), outside = parts(stress.in_row(line / 2));
+    traction = std::max(traction, std::hypot(inside[0], inside[1]));
+    traction_jump = std::max(traction_jump, std::hypot(inside[0] - outside[0], inside[1] - outside[1]));
+    hoop_jump = std::max(hoop_jump, std::abs(inside[2] - outside[2]));
+  }
+  EXPECT_LT(traction_jump, 0.01 * traction);
+  EXPECT_GT(hoop_jump, 0.3 * traction);
 }
 
 TEST(Layers, HaveTheMassOfTheirParts) {

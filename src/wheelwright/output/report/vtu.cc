@@ -126,9 +126,38 @@ std::uint8_t vtk_number(MaterialCellKind kind) {
   return 0;
 }
 
+/// Gives the cells of odd rows and those of the other rows vertices of their own where they meet.
+void split_between_rows(const std::vector<bool>& is_odd_row, MaterialCells& material) {
+  std::map<std::array<int, 2>, int> copies;  // by vertex and row
+  const auto height = [&](int vertex) {
+    return material.places[vertex].cell[0] + material.places[vertex].xi[0];
+  };
+  auto corner = material.corners.begin();
+  for (const MaterialCellKind kind : material.kinds) {
+    const auto end = corner + n_corners(kind);
+    double sum = 0;
+    for (auto k = corner; k != end; ++k) sum += height(k->vertex);
+    const int row = static_cast<int>(sum / n_corners(kind));
+    for (; corner != end; ++corner) {
+      if (is_odd_row[material.places[corner->vertex].cell[0]] == is_odd_row[row]) continue;
+      const auto [copy, is_new] =
+          copies.try_emplace({corner->vertex, row}, static_cast<int>(material.places.size()));
+      if (is_new) {
+        CellPoint place = material.places[corner->vertex];
+        place.xi[0] += place.cell[0] - row;
+        place.cell[0] = row;
+        material.places.push_back(place);
+        material.points.push_back(Vec<3>(material.points[corner->vertex]));
+      }
+      corner->vertex = copy->second;
+    }
+  }
+}
+
 SectorCells<3> sector_cells(const LevelSet<3>& psi, int degree, int cut_subdivisions,
-                            const std::vector<bool>&, FieldPoints<3>& field_points) {
-  const MaterialCells material = material_cells(psi, cut_subdivisions, degree);
+                            const std::vector<bool>& is_odd_row, FieldPoints<3>& field_points) {
+  MaterialCells material = material_cells(psi, cut_subdivisions, degree);
+  if (!is_odd_row.empty()) split_between_rows(is_odd_row, material);
   SectorCells<3> cells{.points = material.points, .psi = {}, .corners = {}, .offsets = {}, .types = {}};
   for (const CellPoint& place : material.places) {
     field_points.add(place.cell, place.xi);

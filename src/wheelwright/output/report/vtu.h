@@ -25,7 +25,7 @@ template <int dim>
 class VtuMesh {
  public:
   /// `lattice` carries the fields, on psi's grid. The numbers of grid and psi are written unchanged, in
-  /// `length_unit`. In 2D points between rows that are odd and rows that are not are there twice, once for
+  /// `length_unit`. Points between rows that are odd and rows that are not are there twice, once for
   /// each: fields may jump there (RingField).
   VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int cut_subdivisions,
           std::string_view length_unit = "m", const std::vector<bool>& is_odd_row = {});
