@@ -19,7 +19,8 @@ void VonMisesPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<cons
   point.law.squared_von_mises(point.strains, squares);
   point.law.squared_von_mises_slope(point.strains, slopes);
   for (int j = 0; j < point.n_cases(); ++j) {
-    const double slope = exponent_ / 2 * std::pow(squares[j] / (unit * unit), exponent_ / 2 - 1);
+    const int half = exponent_ / 2;
+    const double slope = half * std::pow(squares[j] / (unit * unit), half - 1);
     for (int k = 0; k < n_strains<dim>; ++k) slopes[k][j] *= factors[j] * slope / (unit * unit);
   }
 }
