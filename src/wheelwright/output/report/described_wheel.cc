@@ -224,7 +224,8 @@ std::vector<WheelNumber<dim>> numbers_under_load() {
               [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, peak_to_peak); },
               "run-out at fixed load"),
           {"  its first sector harmonic", UnitKind::length, "run_out_first_harmonic_m",
-           [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, first_harmonic); }},
+           [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, first_harmonic); },
+           false, Converges::as_an_extreme},
           number<dim>(
               "force_variation",
               [](const Wheel& w) {
@@ -234,7 +235,8 @@ std::vector<WheelNumber<dim>> numbers_under_load() {
           {"  its first sector harmonic", UnitKind::force, "force_first_harmonic_N",
            [](const Wheel& w) {
              return of_curve(w, &RollingAnalysis::force_at_travel, width(w), first_harmonic);
-           }},
+           },
+           false, Converges::as_an_extreme},
           number<dim>("peak_pressure",
                       [](const Wheel& w) {
                         return under_load(w, [](const Loaded& l) { return l.summary.rolling.peak_pressure; });
@@ -310,6 +312,39 @@ std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel) {
   return all;
 }
 
+namespace {
+
+/// The estimate of an error from the number alone.
+template <int dim>
+double by_two_grids(const WheelNumber<dim>& number, double value, double on_finer, double refinement) {
+  return discretization_error(value, on_finer, refinement, number.converges);
+}
+
+/// The largest relative error among the numbers that measure the displacements as a whole.
+template <int dim>
+double error_of_displacements(const DescribedWheel<dim>& wheel, const FinerWheel<dim>& finer) {
+  double largest = 0;
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) {
+    const auto is = [&](std::string_view quantity) {
+      return number.key == number_key(built_in(quantity), dim);
+    };
+    if (!is("mean_travel") && !is("stiffness") && !is("strain_energy")) continue;
+    const auto value = known_value(number, wheel), on_finer = known_value(number, finer.wheel);
+    if (!value || !on_finer || *value == 0) continue;
+    largest = std::max(largest, by_two_grids(number, *value, *on_finer, finer.refinement) / std::abs(*value));
+  }
+  return largest;
+}
+
+/// Whether a number depends on the displacements: a given load, for example, does not.
+template <int dim>
+bool depends_on_displacements(const WheelNumber<dim>& number, double value, double on_finer) {
+  constexpr double rounding = 1e-9;
+  return !number.is_of_shape && std::abs(value - on_finer) > rounding * std::abs(value);
+}
+
+}  // namespace
+
 template <int dim>
 std::optional<KnownNumber> error_of(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel) {
   const auto value = known_value(number, wheel);
@@ -320,7 +355,9 @@ std::optional<KnownNumber> error_of(const WheelNumber<dim>& number, const Descri
   if (!on_finer) return {};
   if (!*on_finer) return "on the finer grid: " + on_finer->failure();
   if (!std::isfinite(**on_finer)) return std::string("it is not finite on the finer grid");
-  return discretization_error(*value, **on_finer, finer->refinement, number.converges);
+  const double error = by_two_grids(number, *value, **on_finer, finer->refinement);
+  if (!depends_on_displacements(number, *value, **on_finer)) return error;
+  return std::max(error, least_share_of_error * error_of_displacements(wheel, *finer) * std::abs(*value));
 }
 
 template decltype(described_wheel<2>) described_wheel<2>;

@@ -139,8 +139,9 @@ template <int dim>
 std::optional<double> known_value(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel);
 
 /// The estimate of the discretization error of a known number (quantities/analysis/discretization_error.h),
-/// in its unit: nothing if none is wanted or the finer wheel does not have the number, as for those measured
-/// on the outline; the reason if it could not be computed.
+/// in its unit, at least least_share_of_error of that of the displacements: nothing if none is wanted or the
+/// finer wheel does not have the number, as for those measured on the outline; the reason if it could not be
+/// computed.
 template <int dim>
 std::optional<KnownNumber> error_of(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel);
 

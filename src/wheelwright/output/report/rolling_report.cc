@@ -21,12 +21,18 @@ constexpr size_t max_harmonics_shown = 4;
 /// The factor from forces of the analysis to those on the whole width.
 double forces(const RollingReport& report) { return whole_width(report.dimension, report.width); }
 
+/// The errors of the numbers of a variation.
+struct VariationErrors {
+  RollingVariation of;
+  double peak_to_peak;
+};
+
 /// A quantity over the positions.
 struct ShownQuantity {
   std::string name;
   ShownUnit shown;
   Expected<RollingVariation> variation;
-  std::optional<RollingVariation> errors = {};  ///< of the numbers of the variation
+  std::optional<VariationErrors> errors = {};
   Converges converges = Converges::as_an_integral;
 };
 
@@ -118,19 +124,19 @@ double largest_error(const char* key, const RollingReport& report) {
   return errors.empty() ? NAN : std::ranges::max(errors);
 }
 
-/// Of the difference of the two extremes.
-double peak_to_peak_error(const RollingVariation& errors) { return errors.minimum + errors.maximum; }
-
-/// Of every number of a variation.
-RollingVariation variation_errors(const RollingVariation& of, const RollingVariation& on_finer,
-                                  double refinement, Converges how) {
+VariationErrors variation_errors(const RollingVariation& of, const RollingVariation& on_finer,
+                                 double refinement, Converges how) {
   const auto error = [&](double a, double b) { return discretization_error(a, b, refinement, how); };
-  RollingVariation errors{error(of.mean, on_finer.mean),
+  const auto error_of_difference = [&](double a, double b) {
+    return discretization_error(a, b, refinement, Converges::as_an_extreme);
+  };
+  VariationErrors errors{{error(of.mean, on_finer.mean),
                           error(of.minimum, on_finer.minimum),
                           error(of.maximum, on_finer.maximum),
-                          {}};
+                          {}},
+                         error_of_difference(of.peak_to_peak(), on_finer.peak_to_peak())};
   for (size_t k = 0; k < of.harmonics.size(); ++k)
-    errors.harmonics.push_back(error(of.harmonics[k], on_finer.harmonics[k]));
+    errors.of.harmonics.push_back(error_of_difference(of.harmonics[k], on_finer.harmonics[k]));
   return errors;
 }
 
@@ -264,10 +270,10 @@ std::string gap_lines(const RollingReport& report) {
   return table;
 }
 
-std::string variation_errors_line(const RollingVariation& errors, double factor, size_t n_harmonics) {
-  std::string line = fmt::format("{:>36}{:>11.2g}{:>11.2g}{:>15}", "+-", errors.mean * factor,
-                                 peak_to_peak_error(errors) * factor, "");
-  for (size_t k = 0; k < n_harmonics; ++k) line += fmt::format("{:>11.2g}", errors.harmonics[k] * factor);
+std::string variation_errors_line(const VariationErrors& errors, double factor, size_t n_harmonics) {
+  std::string line = fmt::format("{:>36}{:>11.2g}{:>11.2g}{:>15}", "+-", errors.of.mean * factor,
+                                 errors.peak_to_peak * factor, "");
+  for (size_t k = 0; k < n_harmonics; ++k) line += fmt::format("{:>11.2g}", errors.of.harmonics[k] * factor);
   return line + '\n';
 }
 
@@ -372,8 +378,8 @@ Json variation_json(const ShownQuantity& q, double factor, int n_sectors) {
   if (!q.variation) return {};
   Json json = variation_json(*q.variation, factor, n_sectors);
   if (!q.errors) return json;
-  json["errors"] = variation_json(*q.errors, factor, n_sectors);
-  json["errors"]["peak_to_peak"] = peak_to_peak_error(*q.errors) * factor;
+  json["errors"] = variation_json(q.errors->of, factor, n_sectors);
+  json["errors"]["peak_to_peak"] = q.errors->peak_to_peak * factor;
   return json;
 }
 

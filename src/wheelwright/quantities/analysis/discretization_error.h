@@ -10,7 +10,7 @@ namespace wheelwright {
 enum class Converges {
   as_an_integral,  ///< an average over many points
   /// The extreme of single points or places, such as a peak or an edge of the contact: from grid to grid it
-  /// moves by parts of a cell.
+  /// moves by parts of a cell. And small differences of such numbers, such as the run-out.
   as_an_extreme,
 };
 
@@ -23,6 +23,11 @@ constexpr double error_safety(Converges how) { return how == Converges::as_an_in
 /// errors proportional to the size of the cells, and too large if they fall faster.
 double discretization_error(double value, double on_finer_grid, double refinement,
                             Converges how = Converges::as_an_integral);
+
+/// All numbers of a wheel come from the same displacements. Where a number happens to be nearly the same on
+/// both grids, its relative error is still at least this share of the largest one of travel, stiffness and
+/// strain energy.
+constexpr double least_share_of_error = 0.05;
 
 /// The estimates of values at load positions that divide one sector. The error at one position changes its
 /// sign from cell to cell, and may happen to be small on both grids; therefore each estimate is at least that
