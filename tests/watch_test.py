@@ -85,6 +85,12 @@ class Watched:
             version = frame["version"]
         raise TimeoutError
 
+    def errors(self):
+        """The estimate of errors that is in progress, as soon as it ends."""
+        while (answer := json.loads(self.get("/errors")))["busy"]:
+            pass
+        return answer["estimate"]
+
     def end(self, number=signal.SIGINT):
         if self.process.poll() is None:
             self.process.send_signal(number)
@@ -433,6 +439,32 @@ class Page(PageTest):
         self.assertNotEqual(self.browser.execute_script(look), loaded)
         self.element("load").click()
         self.assertEqual(self.browser.execute_script(look), loaded)
+
+    def test_errors_are_estimated_on_demand(self):
+        self.settled()
+        self.paused()
+        shape = str(self.watched.frame()["shape"])
+        self.assertNotIn("\u00b1", self.text("numbers"))
+        self.element("estimate").send_keys(Keys.ENTER)
+        for name in ("objective", "travel", "stiffness_N_per_m", "peak_von_mises_Pa"):
+            self.until(lambda name=name: re.fullmatch(r"[\d.]+ \u00b1 [\d.]+", self.text(f"number-{name}")))
+        value, error = self.text("number-travel").split(" \u00b1 ")
+        self.assertEqual(value.partition(".")[2], value.partition(".")[2].ljust(len(error.partition(".")[2]), "0"))
+        self.assertNotIn("\u00b1", self.text("number-minimum_wall_m"))  # measured on the outline
+        self.assertEqual(self.browser.execute_script(
+            "const e = document.querySelector('.facts'); return e.scrollWidth - e.clientWidth"), 0)
+        told = self.text("errors-text")
+        self.assertRegex(told, rf"shape {shape}, estimated in [\d.]+ s$")
+        # They stay those of this shape.
+        self.element("reset").click()
+        self.until(lambda: self.text("errors-text") != told)
+        self.assertRegex(self.text("errors-text"), rf"shape {shape}, estimated in .* changed")
+        self.until(lambda: "\u00b1" not in self.text("numbers"))
+        self.element("errors-text").click()
+        self.until(lambda: f"{value} \u00b1 {error}" in self.text("errors"))
+        # Another page sees them too.
+        self.browser.refresh()
+        self.until(lambda: f"shape {shape}," in self.text("errors-text"))
 
     def test_designs_are_taken_away(self):
         self.settled()
@@ -829,6 +861,14 @@ class SolidPage(PageTest):
         self.element("ghost").click()
         self.until(lambda: self.surface() == with_edges)
 
+    def test_errors_are_estimated_on_demand(self):
+        self.paused()
+        shape = self.watched.frame()["shape"]
+        self.element("estimate").click()
+        self.until(lambda: self.text("errors-text").startswith(f"Errors \u00b1 of shape {shape}"))
+        for name in ("objective", "travel", "pressure"):
+            self.assertRegex(self.text(f"number-{name}"), r"^[\d.]+ \u00b1 [\d.]+$")
+
     def test_it_is_steered_and_taken_away(self):
         self.paused()
         travel = self.watched.frame()["numbers"]["mean_travel"]
@@ -998,6 +1038,16 @@ class Folder(unittest.TestCase):
             found[name] = content
         return found
 
+    def replayed(self, run):
+        """The results of a run, after a check that its commands give the same bytes without a page."""
+        subprocess.run([program, "watch", self.folder / "case.toml", "--output", self.folder / "again", "--replay",
+                        self.folder / run / "commands.jsonl", "--threads", "1"], check=False, capture_output=True, timeout=300)
+        first, again = self.results(run), self.results("again")
+        self.assertEqual(first.keys(), again.keys())
+        for name, content in first.items():
+            self.assertEqual(content, again[name], name)
+        return first
+
     def test_recorded_commands_give_the_same_bytes_without_a_page(self):
         watched = self.watch(self.folder / "case.toml", "--output", self.folder / "first")
         watched.wait(lambda f: f.get("shape", 0) >= 3)
@@ -1017,14 +1067,54 @@ class Folder(unittest.TestCase):
         self.assertTrue(watched.give({"do": "reset"})["executed"])
         watched.wait(lambda f: f["activity"] == "settled")
         self.assertEqual(watched.end()[0], 130)
-        log = self.folder / "first/commands.jsonl"
-        subprocess.run([program, "watch", self.folder / "case.toml", "--output", self.folder / "again", "--replay", log,
-                        "--threads", "1"], check=False, capture_output=True, timeout=300)
-        first, again = self.results("first"), self.results("again")
-        self.assertEqual(first.keys(), again.keys())
-        for name, content in first.items():
-            self.assertEqual(content, again[name], name)
-        self.assertEqual(len(first["commands.jsonl"].splitlines()), 9)
+        self.assertEqual(len(self.replayed("first")["commands.jsonl"].splitlines()), 9)
+
+    def test_estimates_of_errors_change_nothing_in_the_run(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "first")
+        shapes = set()
+        for force in (3000, 4000, 2500):
+            before = watched.wait(lambda f: f.get("shape", 0) > max(shapes, default=0))
+            self.assertTrue(json.loads(watched.ask("POST", "/errors"))["executed"])
+            load = {k: v for k, v in before["settings"]["load"].items() if v is not None}
+            self.assertTrue(watched.give({"do": "load", **load, "force_N": force})["executed"])
+            shapes.add(watched.errors()["shape"])
+        watched.wait(lambda f: f["activity"] == "settled")
+        watched.end()
+        self.assertEqual(len(shapes), 3)
+        self.assertEqual(len(self.replayed("first")["commands.jsonl"].splitlines()), 4)
+
+    def test_errors_are_those_of_analyze_and_compare(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
+        settled = watched.wait(lambda f: f["activity"] == "settled")
+        with contextlib.closing(watched.connect()) as connection:
+            for token, status in ((f"Bearer {'0' * 64}", 401), (f"Bearer {watched.token}", 202), (f"Bearer {watched.token}", 409)):
+                connection.request("POST", "/errors", headers={"Authorization": token})
+                answer = connection.getresponse()
+                text = answer.read()
+                self.assertEqual(answer.status, status)
+        self.assertIn(f"shape {settled['shape']} ", json.loads(text)["text"])  # of which it is already busy
+        found = watched.errors()
+        self.assertEqual((found["shape"], found["shape_version"]), (settled["shape"], settled["shape_version"]))
+        self.assertGreater(found["seconds"], 0)
+        self.assertTrue(json.loads(watched.ask("POST", "/save", "design"))["executed"])
+        watched.end()
+        design = self.folder / "run/designs/design.toml"
+        analysis, comparison = (json.loads(support.run_program(program, *command, "--json", "--positions", 4))
+                                for command in (("analyze", design), ("compare", design, design)))
+        numbers = comparison["wheels"][0]
+        self.assertGreater(len(found["errors"]), 10)
+        for key, error in found["errors"].items():
+            if key != "objective_J_per_m":
+                self.assertAlmostEqual(found[key] / numbers[key], 1, 9)
+                self.assertAlmostEqual(error, numbers["errors"][key], delta=1e-6 * abs(numbers[key]), msg=key)
+        travel, stress = analysis["travel_at_load_m"], analysis["peak_von_mises"]
+        for key, value, error in (("mean_travel_m", travel["mean"], travel["errors"]["mean"]),
+                                  ("run_out_m", travel["peak_to_peak"], travel["errors"]["peak_to_peak"]),
+                                  ("peak_von_mises_Pa", stress["value_Pa"], stress["error_Pa"])):
+            self.assertAlmostEqual(found[key] / value, 1, 9)
+            self.assertAlmostEqual(found["errors"][key] / error, 1, 6)
+        # The objective is the energy, summed over the positions.
+        self.assertAlmostEqual(found["errors"]["objective_J_per_m"] / found["errors"]["strain_energy_J_per_m"], 4, 6)
 
     def test_commands_that_cannot_be_read_leave_no_run(self):
         (self.folder / "broken.jsonl").write_text('{"do": "nothing"}\n')

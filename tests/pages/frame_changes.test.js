@@ -48,6 +48,62 @@ test("a quantity that only the initial shape has keeps its row", () => {
   assert.ok(Number.isNaN(stress.now));
 });
 
+// Errors of shape 12, which is version 8 of the board, under two loads.
+const estimate = { shape: 12, shape_version: 8, seconds: 2.345, objective_J_per_m: 9, volume_fraction: 0.55, mean_travel_m: 1.25e-3,
+  peak_von_mises_Pa: 2e6, rows: numbers.rows, errors: { objective_J_per_m: 0.1, volume_fraction: 0, mean_travel_m: 2e-5,
+    peak_von_mises_Pa: null }, missing_errors: { peak_von_mises_Pa: "not solved" },
+  load_cases: { kerb: { mean_travel_m: 5e-3, errors: { mean_travel_m: 4e-5 } } } };
+const atLoads = (...names) => ({ ...frame, shape: 12, settings: { load_cases: names.map((name) => ({ name })) } });
+
+test("the errors of the shape shown stand beside its numbers, in the same unit", () => {
+  const { travel, peak_von_mises_Pa: stress, volume } = rowsById(atLoads(), numbers, 0, estimate);
+  near(travel.error, 0.02);
+  assert.equal(volume.error, 0);
+  assert.ok(Number.isNaN(stress.error));  // unknown
+  near(frameChanges.objectiveError(atLoads(), estimate), 0.1);
+  // Its own numbers need not wait for others of that shape.
+  const late = rowsById(atLoads(), { ...numbers, now: { ...numbers.now, peak_von_mises_Pa: 3e6 } }, 0, estimate);
+  assert.deepEqual([late.peak_von_mises_Pa.now, late.peak_von_mises_Pa.isLate], [2, false]);
+});
+
+test("every load case has errors of its own", () => {
+  const of = { ...atLoads("flat", "kerb"), load_case: 1 }, { travel } = rowsById(of, { ...numbers, load_case: 1 }, 1, estimate);
+  near(travel.error, 0.04);
+  const [row] = frameChanges.errorRows(estimate, "kerb").filter(({ name }) => name === "travel");
+  assert.deepEqual([row.text, row.unit], ["5.00 \u00b1 0.04", "mm"]);
+});
+
+test("errors of another shape are not those of the numbers shown", () => {
+  const later = { ...atLoads(), shape: 15, shape_version: 11 };
+  for (const of of [null, { ...estimate, shape_version: 7 }])
+    for (const { error } of frameChanges.numberRows(atLoads(), numbers, 0, of)) assert.ok(Number.isNaN(error));
+  assert.ok(Number.isNaN(frameChanges.objectiveError(later, estimate)));
+  assert.ok(Number.isNaN(frameChanges.objectiveError(later, null)));
+});
+
+test("the table of an estimate has values with errors, and why one is missing", () => {
+  const texts = Object.fromEntries(frameChanges.errorRows(estimate, undefined).map(({ name, text }) => [name, text]));
+  assert.deepEqual(texts, { objective: "9.00 \u00b1 0.10", material: "55", travel: "1.25 \u00b1 0.02", "peak stress": "2; not solved" });
+  assert.deepEqual(frameChanges.errorRows(null, undefined), []);
+});
+
+test("errors say of which shape they are, how long they took, and whether it is still the newest", () => {
+  const told = (of, shown = atLoads()) => frameChanges.errorsText({ busy: null, estimate: of }, shown);
+  const now = told(estimate), later = told(estimate, { ...atLoads(), shape: 15, shape_version: 11 });
+  for (const text of [now, later]) assert.match(text, /shape 12.* 2\.3 s/);
+  assert.doesNotMatch(now, /changed/);
+  assert.match(later, /changed/);
+  assert.match(frameChanges.errorsText({ busy: { shape: 13, seconds: 4 }, estimate }, atLoads()), /shape 13.* 4\.0 s/);
+});
+
+test("an estimate without any error says why, once", () => {
+  const reason = "the finer grid would have 1e7 unknowns", errors = { mean_travel_m: null, peak_von_mises_Pa: null };
+  const text = frameChanges.errorsText({ busy: null, estimate: { ...estimate, errors,
+    missing_errors: { mean_travel_m: reason, peak_von_mises_Pa: reason } } }, atLoads());
+  assert.equal(text.split(reason).length, 2);
+  assert.match(frameChanges.errorsText({ busy: null, estimate: { shape: 3, failure: "no memory" } }, atLoads()), /3.*no memory/);
+});
+
 test("a bound is shown in its unit, with its relation", () => {
   const bound = { name: "run_out_in_kerb", shown: { unit: "mm", factor: 1e3 }, value: 0.004, limit: 0.005, is_kept: true };
   const signs = Object.entries({ "<": "\u2264", ">": "\u2265", "=": "=" });

@@ -1,5 +1,7 @@
 #include "wheelwright/output/report/numbers_json.h"
 
+#include <cmath>
+
 namespace wheelwright {
 namespace {
 
@@ -27,6 +29,20 @@ void add_with_errors(const std::vector<WheelNumber<dim>>& numbers, const Describ
   if (!missing_errors.empty()) json["missing_errors"] = std::move(missing_errors);
 }
 
+/// Facts about the load that the numbers do not contain.
+template <int dim>
+void add_details(const LoadedWheel<dim>& loaded, Json& json) {
+  const ShapeSummary<dim>& summary = loaded.summary;
+  json["pressure_spread"] = summary.rolling.pressure_spread;
+  json["peak_von_mises_place"] = {{"radius_m", summary.von_mises.place[0]},
+                                  {"azimuth_rad", summary.von_mises.place[1]},
+                                  {"load_position_rad", summary.von_mises.ground_azimuth}};
+  if constexpr (dim == 3) json["peak_von_mises_place"]["z_m"] = summary.von_mises.place[2];
+  json["largest_rotation_rad"] = summary.deformation.rotation;
+  json["travel_by_ring_thickness"] = summary.deformation.travel;
+  json["edges_overlap"] = summary.deformation.edges_overlap;
+}
+
 }  // namespace
 
 template <int dim>
@@ -50,9 +66,30 @@ void add_numbers(const DescribedWheel<dim>& wheel, Json& json) {
     add_with_errors(numbers, other, json["load_cases"][other.load_case]);
 }
 
+template <int dim>
+Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized) {
+  Json json{{"shape", shape.iteration}};
+  const char* objective = !minimized.empty() ? "objective" : dim == 2 ? "objective_J_per_m" : "objective_J";
+  json[objective] = shape.objective ? Json(*shape.objective) : Json();
+  add_numbers(shape.wheel, json);
+  if (!shape.objective) json["missing"][objective] = shape.objective.failure();
+  if (const auto& error = shape.objective_error) {
+    json["errors"][objective] = *error ? Json(**error) : Json();
+    if (!*error) json["missing_errors"][objective] = error->failure();
+  }
+  if (shape.wheel.loaded) add_details(*shape.wheel.loaded, json);
+  if (const auto rough = roughness(shape.wheel)) {
+    const Vec<2>& place = rough->edge.sharpest.place;
+    json["roughness_place"] = {{"radius_m", norm<2>(place)}, {"azimuth_rad", std::atan2(place[1], place[0])}};
+  }
+  return json;
+}
+
 template decltype(shown_numbers<2>) shown_numbers<2>;
 template decltype(shown_numbers<3>) shown_numbers<3>;
 template decltype(add_numbers<2>) add_numbers<2>;
 template decltype(add_numbers<3>) add_numbers<3>;
+template decltype(shape_json<2>) shape_json<2>;
+template decltype(shape_json<3>) shape_json<3>;
 
 }  // namespace wheelwright

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/output/report/run_summary.h"
 
 namespace wheelwright {
 
@@ -17,5 +17,10 @@ nlohmann::ordered_json shown_numbers(const std::vector<WheelNumber<dim>>& number
 /// `missing_errors` the reasons for those that are null.
 template <int dim>
 void add_numbers(const DescribedWheel<dim>& wheel, nlohmann::ordered_json& json);
+
+/// A shape of a run: its number and its objective with its error, the numbers of its wheel as added by
+/// add_numbers(), and facts about its load. `minimized` as in RunSummary.
+template <int dim>
+nlohmann::ordered_json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized);
 
 }  // namespace wheelwright

@@ -1,6 +1,5 @@
 #include "wheelwright/run/results/final_results.h"
 
-#include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/run/results/finer_wheel.h"
 #include "wheelwright/run/results/given_wheel.h"
 #include "wheelwright/run/results/own_numbers.h"
@@ -43,25 +42,6 @@ std::shared_ptr<const StateSolver<dim>> finer_solver(const Study<dim>& study) {
   return finer ? *std::move(finer) : nullptr;
 }
 
-/// Estimates the errors of a summary's last shape, which `solver` solved, on a finer grid.
-template <int dim>
-void add_errors(const Study<dim>& study, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
-                Solutions<dim>& solutions, SummarizedShape<dim>& last) {
-  const auto finer = finer_shape(study.source, solver, shape);
-  if (!finer) {
-    last.wheel = with_errors(std::move(last.wheel), KnownFinerWheel<dim>(finer.failure()));
-    last.objective_error = KnownNumber(finer.failure());
-    return;
-  }
-  const auto states = solutions.of(*finer->solver, finer->shape);
-  last.wheel =
-      with_errors(std::move(last.wheel), finer_wheel(study.source, study.load_cases, *finer, states));
-  if (!last.objective) return;
-  const KnownNumber on_finer = objective_of(study.source, study.load_cases, *finer, states);
-  last.objective_error =
-      on_finer ? discretization_error(*last.objective, *on_finer, finer->refinement) : on_finer;
-}
-
 }  // namespace
 
 template <int dim>
@@ -97,7 +77,10 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
   const auto objective = objective_as_given(study, initial, interrupt);
   auto summary = summarized_run(study, initial, objective, before, state, after);
   if (shown && study.source.output.errors == ErrorEstimates::estimated)
-    add_errors(study, *solver, state.shape, solutions, summary.after);
+    add_errors<dim>(
+        study.source, study.load_cases, *solver, state.shape,
+        [&](const StateSolver<dim>& of, const LevelSet<dim>& shape) { return solutions.of(of, shape); },
+        summary.after);
   return {.own = own,
           .solver = solver,
           .shown = shown ? *shown : nullptr,

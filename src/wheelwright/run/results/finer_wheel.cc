@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "wheelwright/base/available_memory.h"
+#include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
 #include "wheelwright/quantities/functionals/mean_contact_stress.h"
 #include "wheelwright/run/results/own_numbers.h"
@@ -98,10 +99,28 @@ KnownNumber objective_of(const Case& c, const LoadCases<dim>& cases, const Finer
   return sum;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                    \
-  template decltype(finer_shape<dim>) finer_shape<dim>; \
-  template decltype(finer_wheel<dim>) finer_wheel<dim>; \
-  template decltype(objective_of<dim>) objective_of<dim>;
+template <int dim>
+void add_errors(const Case& c, const LoadCases<dim>& cases, const StateSolver<dim>& solver,
+                const LevelSet<dim>& psi, const SolveShape<dim>& solve, SummarizedShape<dim>& shape) {
+  const auto finer = finer_shape(c, solver, psi);
+  if (!finer) {
+    shape.wheel = with_errors(std::move(shape.wheel), KnownFinerWheel<dim>(finer.failure()));
+    shape.objective_error = KnownNumber(finer.failure());
+    return;
+  }
+  const auto states = solve(*finer->solver, finer->shape);
+  shape.wheel = with_errors(std::move(shape.wheel), finer_wheel(c, cases, *finer, states));
+  if (!shape.objective) return;
+  const KnownNumber on_finer = objective_of(c, cases, *finer, states);
+  shape.objective_error =
+      on_finer ? discretization_error(*shape.objective, *on_finer, finer->refinement) : on_finer;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                      \
+  template decltype(finer_shape<dim>) finer_shape<dim>;   \
+  template decltype(finer_wheel<dim>) finer_wheel<dim>;   \
+  template decltype(objective_of<dim>) objective_of<dim>; \
+  template decltype(add_errors<dim>) add_errors<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "wheelwright/case/case.h"
-#include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/output/report/run_summary.h"
 #include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
@@ -39,5 +40,15 @@ KnownFinerWheel<dim> finer_wheel(const Case& c, const LoadCases<dim>& cases, con
 template <int dim>
 KnownNumber objective_of(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
                          const SolvedStates<dim>& states);
+
+/// Solves a shape under the first load case at the positions that results need.
+template <int dim>
+using SolveShape = std::function<SolvedStates<dim>(const StateSolver<dim>&, const LevelSet<dim>&)>;
+
+/// Adds estimates of the errors of a summarized shape, which `solver` solved, and of its objective, from a
+/// solution on the finer grid; or why there is none.
+template <int dim>
+void add_errors(const Case& c, const LoadCases<dim>& cases, const StateSolver<dim>& solver,
+                const LevelSet<dim>& psi, const SolveShape<dim>& solve, SummarizedShape<dim>& shape);
 
 }  // namespace wheelwright

@@ -21,6 +21,9 @@ using namespace std::chrono_literals;
 /// How long a page waits for news before it polls again.
 constexpr auto patience = 15s;
 
+/// How long a page waits for errors before it is told how long they have taken so far.
+constexpr auto between_tellings = 1s;
+
 /// A nonnegative integer parameter of the address; 0 if absent.
 long parameter(const PageRequest& request, const std::string& name) {
   const auto found = request.parameters.find(name);
@@ -71,6 +74,7 @@ WatchSession<dim>::WatchSession(CommandQueue& commands, OfferedDesigns designs, 
       kinds_(std::move(kinds)),
       board_(std::make_shared<Board<dim>>()),
       numbers_(std::make_shared<WatchedNumbers<dim>>()),
+      errors_(std::make_shared<WatchedErrors<dim>>()),
       commands_(std::make_shared<PageCommands>(commands)) {}
 
 template <int dim>
@@ -98,6 +102,8 @@ std::vector<Route> WatchSession<dim>::routes() {
           {get, token, "/frame", [this](const PageRequest& request) { return frame(request); }},
           {get, token, "/loaded", [this](const PageRequest& request) { return loaded(request); }},
           {get, token, "/numbers", [this](const PageRequest& request) { return numbers(request); }},
+          {get, token, "/errors", [this](const PageRequest&) { return errors(); }},
+          {post, token, "/errors", [this](const PageRequest&) { return estimate_errors(); }},
           {get, token, "/export", [this](const PageRequest& request) { return exported_file(request); }},
           {get, token, "/report", [this](const PageRequest&) { return report(); }},
           {post, token, "/save", [this](const PageRequest& request) { return save(request); }},
@@ -110,6 +116,7 @@ template <int dim>
 void WatchSession<dim>::close() {
   board_->close();
   commands_->close();
+  errors_->close();
 }
 
 template <int dim>
@@ -163,6 +170,20 @@ PageAnswer WatchSession<dim>::numbers(const PageRequest& request) const {
   const BoardView<dim> view = board_->view();
   if (!view.shape) return no_shape();
   return {.body = numbers_->json(view, asked_load_case(request, *view.shape))};
+}
+
+template <int dim>
+PageAnswer WatchSession<dim>::errors() const {
+  return {.body = errors_->json(between_tellings)};
+}
+
+template <int dim>
+PageAnswer WatchSession<dim>::estimate_errors() {
+  const BoardView<dim> view = board_->view();
+  if (!view.shape) return no_shape();
+  const auto begun = errors_->begin(view);
+  if (!begun) return message(409, false, begun.failure().reason);
+  return message(202, true, *begun);
 }
 
 template <int dim>

@@ -8,6 +8,7 @@
 #include "wheelwright/web/server/local_server.h"
 #include "wheelwright/web/watch/board.h"
 #include "wheelwright/web/watch/designs.h"
+#include "wheelwright/web/watch/errors.h"
 #include "wheelwright/web/watch/numbers.h"
 #include "wheelwright/web/watch/page_commands.h"
 
@@ -40,6 +41,8 @@ class WatchSession {
   PageAnswer command(const PageRequest& request);
   PageAnswer loaded(const PageRequest& request) const;
   PageAnswer numbers(const PageRequest& request) const;
+  PageAnswer errors() const;
+  PageAnswer estimate_errors();
   PageAnswer exported_file(const PageRequest& request) const;
   PageAnswer report() const;
   PageAnswer save(const PageRequest& request) const;
@@ -51,6 +54,7 @@ class WatchSession {
   CommandKinds kinds_;
   std::shared_ptr<Board<dim>> board_;
   std::shared_ptr<WatchedNumbers<dim>> numbers_;
+  std::shared_ptr<WatchedErrors<dim>> errors_;
   std::shared_ptr<PageCommands> commands_;
 };
 

@@ -1,7 +1,7 @@
 "use strict";
 (() => {
-  const { colour, element, chart } = parts, { shown, short, briefChange, words } = formats;
-  const { numberRows, boundRow, clauses, newest, comparable, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
+  const { colour, element, chart } = parts, { shown, short, withError, briefChange, words } = formats;
+  const { isOf, caseName, numberRows, objectiveError, errorRows, errorsText, boundRow, clauses, newest, comparable, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
   const at = (id) => document.getElementById(id);
 
   // --- The server -------------------------------------------------------------------------------------
@@ -491,7 +491,7 @@
   const betweenNumbers = 400;  // ms
   let numbers = null, numbersOf = "", numbersAsked = 0;
 
-  function numberRow(id, name, unit, before, now, text = short) {
+  function numberRow({ id, name, unit, before, now, error, text = short }) {
     let row = at(`row-${id}`);
     if (!row) {
       row = element("tr", { id: `row-${id}` }, element("th", { scope: "row" }, `${name} `, element("span", { class: "unit" }, unit)),
@@ -500,20 +500,24 @@
     }
     const [, first, last, difference] = row.children;
     first.textContent = text(before);
-    last.textContent = text(now);
+    // An error that the usual digits do not show is left out.
+    const [value, stated] = error > 5e-5 * Math.abs(now) ? withError(now, error).split(/(?= \u00b1)/) : [text(now), ""];
+    last.replaceChildren(value, element("span", { class: "error" }, stated ?? ""));
     difference.textContent = briefChange(before, now);
   }
 
   function showNumbers() {
     const objective = frame.numbers.objective_J_per_m ?? frame.numbers.objective_J;
-    numberRow("objective", "objective", isSolid() ? "J" : "J/m", frame.numbers.initial_objective, objective, shown);
+    numberRow({ id: "objective", name: "objective", unit: isSolid() ? "J" : "J/m", before: frame.numbers.initial_objective,
+      now: objective, error: objectiveError(frame, errors.estimate), text: shown });
     at("numbers-of").replaceChildren("of shape ", element("span", { id: "number-shape" }, String(frame.shape)),
-      frame.settings.load_cases.length > 0 ? ` in ${frame.settings.load_cases[loadCase].name}` : "");
+      frame.settings.load_cases.length > 0 ? ` in ${caseName(frame, loadCase)}` : "");
     if (!numbers || numbers.load_case !== loadCase) return;
-    for (const { id, name, unit, before, now, isLate } of numberRows(frame, numbers, loadCase)) {
-      numberRow(id, name, unit, before, now);
-      at(`number-${id}`).classList.toggle("late", isLate);  // grey
+    for (const row of numberRows(frame, numbers, loadCase, errors.estimate)) {
+      numberRow(row);
+      at(`number-${row.id}`).classList.toggle("late", row.isLate);  // grey
     }
+    at("numbers").classList.toggle("with-errors", isOf(errors.estimate, frame) && !errors.estimate.failure);
   }
 
   function showBounds() {
@@ -523,6 +527,42 @@
         element("td", { class: "now" }, value), element("td", {}, limit),
         element("td", { class: isKept ? "good" : "bad" }, state))));
   }
+
+  // --- Errors on demand -------------------------------------------------------------------------------
+
+  let errors = { busy: null, estimate: null }, errorsOf = "";
+
+  function showErrors() {
+    const { busy, estimate } = errors, key = `${estimate?.shape_version} ${loadCase}`;
+    at("errors").hidden = !busy && !estimate;
+    if (busy || estimate) at("errors-text").textContent = errorsText(errors, frame);
+    if (key === errorsOf) return;
+    errorsOf = key;
+    at("error-rows").replaceChildren(...errorRows(estimate, caseName(frame, loadCase)).map(({ name, unit, text }) =>
+      element("tr", {}, element("th", { scope: "row" }, `${name} `, element("span", { class: "unit" }, unit)),
+        element("td", {}, text))));
+  }
+
+  // Each answer comes after a second at the latest. Errors of a shape that the run has left are shown at once, in their own
+  // table; the others stand beside the numbers.
+  async function followErrors() {
+    do {
+      errors = await (await ask("/errors")).json();
+      showErrors();
+    } while (errors.busy);
+    if (!errors.estimate) return;
+    at("errors").open = !isOf(errors.estimate, frame);
+    showNumbers();
+  }
+  at("estimate").addEventListener("click", async () => {
+    try {
+      const answer = await (await ask("/errors", { method: "POST" })).json();
+      if (answer.executed) await followErrors();
+      else tell(answer.text, true);
+    } catch {
+      tell("the program does not respond", true);
+    }
+  });
 
   function showWarnings() {
     at("warnings").hidden = numbers.warnings.length === 0;
@@ -758,6 +798,7 @@
     }
     animate();
     followNumbers();
+    followErrors().catch(() => {});
   }
 
   async function take(news) {
@@ -780,6 +821,7 @@
     if (frame.is_proposed) return;
     if (frame.message !== before?.message && frame.shape_version !== before?.shape_version) ++numbersAsked;
     showNumbers();
+    showErrors();
     showBounds();
     if ("force_curve" in frame) showCurves();
     if (news.curve.length > 0) wheel.dataset.shapes = String(++shapesPainted);
