@@ -136,6 +136,9 @@ void expect_the_same_states(const RollingModel<3>& model, const State<3>& a, con
       EXPECT_LT(difference(numbers(a.displacement().strains(cell, points)),
                            numbers(b.displacement().strains(cell, points))),
                 100 * rounding);  // of the strains of this cell, which may be small
+      EXPECT_LT(difference(numbers(a.displacement().strains_and_rotations(cell, points)),
+                           numbers(b.displacement().strains_and_rotations(cell, points))),
+                100 * rounding);
     }
   EXPECT_LT(difference(a.strain_peaks().von_mises, b.strain_peaks().von_mises), rounding);
   EXPECT_LT(difference(a.strain_peaks().principal, b.strain_peaks().principal), rounding);

@@ -20,19 +20,33 @@ class WholeDisplacement : public Displacement<3> {
   }
 
   Matrix strains(int cell, std::span<const Vec<3>> points) const override {
-    const auto place = halves_.place(cell);
-    if (!place.is_image) return half_.displacement().strains(place.cell, points);
-    std::vector<Vec<3>> images(points.begin(), points.end());
-    for (Vec<3>& xi : images) xi[2] = 1 - xi[2];
-    Matrix strains = half_.displacement().strains(place.cell, images);
     constexpr int shears_along_axle[] = {3, 4};
-    for (int j = 0; j < strains.columns(); ++j)
-      for (int first = 0; first < strains.rows(); first += n_strains<3>)
-        for (const int shear : shears_along_axle) strains(first + shear, j) *= -1;
-    return strains;
+    return of_half(&Displacement<3>::strains, cell, points, n_strains<3>, shears_along_axle);
+  }
+
+  Matrix strains_and_rotations(int cell, std::span<const Vec<3>> points) const override {
+    constexpr int shears_along_axle_and_rotations_in_plane[] = {3, 4, 6, 7};
+    return of_half(&Displacement<3>::strains_and_rotations, cell, points, n_strains<3> + n_rotations<3>,
+                   shears_along_axle_and_rotations_in_plane);
   }
 
  private:
+  /// A field at points of a cell, of so many components per point. Those named change sign in the mirror
+  /// image.
+  Matrix of_half(Matrix (Displacement<3>::*field)(int, std::span<const Vec<3>>) const, int cell,
+                 std::span<const Vec<3>> points, int n_components, std::span<const int> odd) const {
+    const auto place = halves_.place(cell);
+    const Displacement<3>& there = half_.displacement();
+    if (!place.is_image) return (there.*field)(place.cell, points);
+    std::vector<Vec<3>> images(points.begin(), points.end());
+    for (Vec<3>& xi : images) xi[2] = 1 - xi[2];
+    Matrix values = (there.*field)(place.cell, images);
+    for (int j = 0; j < values.columns(); ++j)
+      for (int first = 0; first < values.rows(); first += n_components)
+        for (const int component : odd) values(first + component, j) *= -1;
+    return values;
+  }
+
   const State<3>& half_;
   const WidthHalves& halves_;
 };

@@ -111,16 +111,58 @@ Matrix RingDisplacement<dim>::cell_displacements(int cell) const {
   return result;
 }
 
+namespace {
+
+/// The strains at points of a cell as a linear map of its dofs, n_rows rows per point of which they are the
+/// first.
 template <int dim>
-Matrix RingDisplacement<dim>::strains(int cell, std::span<const Vec<dim>> points) const {
-  const auto& element = problem_.elements().element(lattice_.grid().cell_position(cell)[0]);
-  Matrix map(n_strains<dim> * static_cast<int>(points.size()), element.n_dofs());
+Matrix strain_map(const ElasticElement<dim>& element, std::span<const Vec<dim>> points, int n_rows) {
+  Matrix map(n_rows * static_cast<int>(points.size()), element.n_dofs());
   for (size_t q = 0; q < points.size(); ++q) {
     const auto at = element.at(points[q]);
     for (int j = 0; j < element.n_dofs(); ++j)
-      for (int k = 0; k < n_strains<dim>; ++k)
-        map(n_strains<dim> * static_cast<int>(q) + k, j) = at.strain[k][j];
+      for (int k = 0; k < n_strains<dim>; ++k) map(n_rows * static_cast<int>(q) + k, j) = at.strain[k][j];
   }
+  return map;
+}
+
+/// The axes in whose plane a rotation turns, from the first to the second.
+template <int dim>
+std::array<int, 2> plane_of_rotation(int rotation) {
+  if constexpr (dim == 2) return {0, 1};
+  return {(rotation + 1) % 3, (rotation + 2) % 3};
+}
+
+/// Adds the rotations to a map, from `row` of each point on.
+template <int dim>
+void add_rotations(const ElasticElement<dim>& element, std::span<const Vec<dim>> points, int n_rows, int row,
+                   Matrix& map) {
+  for (size_t q = 0; q < points.size(); ++q) {
+    const auto gradient = element.gradient(points[q]);
+    for (int r = 0; r < n_rotations<dim>; ++r) {
+      const auto [from, to] = plane_of_rotation<dim>(r);
+      for (int j = 0; j < element.n_dofs(); ++j)
+        map(n_rows * static_cast<int>(q) + row + r, j) =
+            0.5 * (gradient[dim * to + from][j] - gradient[dim * from + to][j]);
+    }
+  }
+}
+
+}  // namespace
+
+template <int dim>
+Matrix RingDisplacement<dim>::strains(int cell, std::span<const Vec<dim>> points) const {
+  const auto& element = problem_.elements().element(lattice_.grid().cell_position(cell)[0]);
+  return product(strain_map<dim>(element, points, n_strains<dim>), Op::none, cell_displacements(cell),
+                 Op::none);
+}
+
+template <int dim>
+Matrix RingDisplacement<dim>::strains_and_rotations(int cell, std::span<const Vec<dim>> points) const {
+  const auto& element = problem_.elements().element(lattice_.grid().cell_position(cell)[0]);
+  constexpr int n_rows = n_strains<dim> + n_rotations<dim>;
+  Matrix map = strain_map<dim>(element, points, n_rows);
+  add_rotations<dim>(element, points, n_rows, n_strains<dim>, map);
   return product(map, Op::none, cell_displacements(cell), Op::none);
 }
 

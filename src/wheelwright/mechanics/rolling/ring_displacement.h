@@ -15,6 +15,7 @@ class RingDisplacement : public Displacement<dim> {
 
   RingField at_nodes(int position) const override;
   Matrix strains(int cell, std::span<const Vec<dim>> points) const override;
+  Matrix strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override;
 
  private:
   /// Displacements of a cell's dofs: one row per dof, one column per (position, sector).

@@ -47,16 +47,26 @@ class TurnedDisplacement : public Displacement<dim> {
   }
 
   Matrix strains(int cell, std::span<const Vec<dim>> points) const override {
+    return of_turned(&Displacement<dim>::strains, cell, points);
+  }
+
+  Matrix strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override {
+    return of_turned(&Displacement<dim>::strains_and_rotations, cell, points);
+  }
+
+ private:
+  /// A field at points of a cell, in its frame.
+  Matrix of_turned(Matrix (Displacement<dim>::*field)(int, std::span<const Vec<dim>>) const, int cell,
+                   std::span<const Vec<dim>> points) const {
     const PolarGrid<dim>& grid = lattice_.grid();
     auto place = grid.cell_position(cell);
     place[1] -= columns_;
     const int sectors_back = place[1] < 0 ? 1 : 0;
     place[1] += sectors_back * grid.columns();
-    const Matrix there = turned_.displacement().strains(grid.cell_index(place), points);
+    const Matrix there = (turned_.displacement().*field)(grid.cell_index(place), points);
     return turned_columns(there, grid.n_sectors, sectors_back);
   }
 
- private:
   const State<dim>& turned_;
   Lattice<dim> lattice_;
   int columns_;

@@ -19,6 +19,11 @@
 
 namespace wheelwright {
 
+/// Number of independent components of an antisymmetric tensor: a rotation about the axle, or about three
+/// axes.
+template <int dim>
+constexpr int n_rotations = dim*(dim - 1) / 2;
+
 /// The displacement of a solved shape everywhere in the ring.
 template <int dim>
 class Displacement {
@@ -32,6 +37,10 @@ class Displacement {
   /// Strains at points of a cell of the sector's grid, in the cell's frame: n_strains rows per point, one
   /// column per (position, sector). In the tread they are those of the grid's own nodes.
   virtual Matrix strains(int cell, std::span<const Vec<dim>> points) const = 0;
+
+  /// The same strains, each followed by the n_rotations rotations of the material against the rim there: half
+  /// the curl of u without the rim's motion, in the cell's frame [rad].
+  virtual Matrix strains_and_rotations(int cell, std::span<const Vec<dim>> points) const = 0;
 };
 
 /// The largest values of every load position, over the quadrature points of the material. The tread is seen
