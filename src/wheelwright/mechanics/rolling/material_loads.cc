@@ -74,7 +74,7 @@ MaterialLoads material_loads(const RollingProblem<dim>& problem, const RollingSo
   const int n_positions = s.positions.size();
   MaterialLoads loads{Matrix(n_positions * grid.n_sectors, s.ring.sector_factor().size()),
                       tread.no_forces(n_positions * grid.ring_columns())};
-  MaterialRule<dim>(s.domain, problem.model().degree)
+  MaterialRule<dim>(s.domain, problem.model().degree + 2)
       .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
         const auto place = grid.cell_position(cell);
         const auto covering = integrals_in_row<dim>(integrals, grid, place[0]);

@@ -17,20 +17,13 @@ void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
                    const std::function<void(const StrainedCell<dim>&)>& visit) {
   const RollingModel<dim>& model = solver.model();
   const Displacement<dim>& displacement = state.displacement();
-  MaterialRule<dim>(state.domain(), model.degree)
+  MaterialRule<dim>(state.domain(), model.degree + 2)
       .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
         const auto place = model.grid.cell_position(cell);
         if (!covered.covers(model.grid, place[0])) return;
-        const CellMap<dim> map(model.grid, model.degree, place);
-        std::vector<Vec<dim>> xi;
-        std::vector<double> weights;
-        for (const auto& point : points) {
-          xi.push_back(point.xi);
-          weights.push_back(point.weight *
-                            determinant<dim>(map.jacobian(ShapeFunctions<dim>(model.degree, point.xi))));
-        }
-        visit({std::move(weights), by_load_case(displacement.strains(cell, xi)), model.grid.n_sectors,
-               model.materials.in_row(model.grid, place[0])});
+        auto quadrature = cell_quadrature(model.grid, model.degree, cell, points);
+        visit({std::move(quadrature.weights), by_load_case(displacement.strains(cell, quadrature.points)),
+               model.grid.n_sectors, model.materials.in_row(model.grid, place[0])});
       });
 }
 

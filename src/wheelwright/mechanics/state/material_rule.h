@@ -1,8 +1,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "wheelwright/shape/cut/cut_domain.h"
+#include "wheelwright/shape/geometry/cell_map.h"
 
 namespace wheelwright {
 
@@ -10,9 +12,9 @@ namespace wheelwright {
 template <int dim>
 class MaterialRule {
  public:
-  /// `degree` of the displacement.
-  MaterialRule(const CutDomain<dim>& domain, int degree)
-      : domain_(domain), full_(unit_cell_rule<dim>(degree + 2)) {}
+  /// With so many Gauss points per direction in full cells.
+  MaterialRule(const CutDomain<dim>& domain, int n_points)
+      : domain_(domain), full_(unit_cell_rule<dim>(n_points)) {}
 
   /// Calls visit(cell, points) for every cell that contains material.
   template <class Visit>
@@ -29,5 +31,26 @@ class MaterialRule {
   const CutDomain<dim>& domain_;
   std::vector<ReferencePoint<dim>> full_;
 };
+
+/// Quadrature points of a cell.
+template <int dim>
+struct CellQuadrature {
+  std::vector<Vec<dim>> points;  ///< of the unit cell
+  std::vector<double> weights;   ///< [m^2, or m^3 when dim = 3]
+};
+
+/// For a displacement of that degree.
+template <int dim>
+CellQuadrature<dim> cell_quadrature(const PolarGrid<dim>& grid, int degree, int cell,
+                                    std::span<const ReferencePoint<dim>> points) {
+  const CellMap<dim> map(grid, degree, grid.cell_position(cell));
+  CellQuadrature<dim> result;
+  for (const auto& point : points) {
+    result.points.push_back(point.xi);
+    result.weights.push_back(point.weight *
+                             determinant<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi))));
+  }
+  return result;
+}
 
 }  // namespace wheelwright

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/mechanics/state/material_rule.h"
 
 namespace wheelwright {
 namespace {
@@ -97,14 +98,10 @@ void add_cell(const StateSolver<dim>& solver, const Displacement<dim>& displacem
 template <int dim>
 std::vector<std::vector<Vec<dim>>> material_points(const CutDomain<dim>& domain, int degree) {
   std::vector<std::vector<Vec<dim>>> result(domain.grid.n_cells());
-  const auto full = unit_cell_rule<dim>(degree + 1);
-  auto cut = domain.cut.begin();
-  for (int cell = 0; cell < domain.grid.n_cells(); ++cell) {
-    const bool is_cut = cut != domain.cut.end() && cut->cell == cell;
-    const std::span<const ReferencePoint<dim>> points = is_cut ? (cut++)->material : full;
-    if (!domain.active(cell)) continue;
-    for (const auto& point : points) result[cell].push_back(point.xi);
-  }
+  MaterialRule<dim>(domain, degree + 1)
+      .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
+        for (const auto& point : points) result[cell].push_back(point.xi);
+      });
   return result;
 }
 
