@@ -173,6 +173,13 @@ TEST(Analysis, SolvedPositionsRepresentAll) {
     expect_same(a.*values, b.*values);
   for (const auto values : {&RollingAnalysis::travel_at_load, &RollingAnalysis::force_at_travel})
     expect_same(*(a.*values), *(b.*values));
+  const auto errors = [](const RollingAnalysis& analysis) {
+    std::vector<double> result;
+    for (const PositionDeformation& position : analysis.deformations)
+      result.push_back(position.neglected.size());
+    return result;
+  };
+  expect_same(errors(a), errors(b));
   double friction = 0;
   for (int i = 0; i < model.n_positions; ++i) {
     const ContactSummary &one = a.positions[i], &other = b.positions[i];
@@ -204,6 +211,7 @@ TEST(Analysis, DeformationOfThePapersWheelIsSmall) {
   const DeformationSize twice = deformation_size<2>(*other, psi, **more);
   EXPECT_NEAR(twice.rotation / size.rotation, 2, 0.2);
   EXPECT_NEAR(twice.travel / size.travel, 2, 0.1);
+  EXPECT_NEAR(twice.error.size() / size.error.size(), 2, 0.2);
 }
 
 TEST(Analysis, RingRunsTrueAtThePositionsOfColumns) {
@@ -337,15 +345,15 @@ TEST(Analysis, PatchAndPressureOfAThickRingGrowAsHertzSays) {
   EXPECT_NEAR(whole.peak_pressure / (2 * model.load / (pi * half_width)), 1, 0.02);
 }
 
-/// Strain by differences of the displacement field at the quadrature points of whole cells.
-TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
+/// Strain and rotation by differences of the displacement field at the quadrature points of whole cells.
+TEST(Analysis, PeaksAreThoseOfTheDisplacementField) {
   const RollingModel<2> model = coarse_model(3);
   const auto [problem, state, a] = analyzed(model, no_holes);
   const Lattice<2> lattice(model.grid, model.degree);
   const auto points = unit_cell_rule<2>(model.degree + 1);
   for (int position = 0; position < 3; ++position) {
     const RingField field = state->displacement().at_nodes(position);
-    double peak = 0;
+    double peak = 0, rotation = 0;
     for (int sector = 0; sector < model.grid.n_sectors; ++sector)
       for (int cell = 0; cell < model.grid.n_cells(); ++cell) {
         const auto c = model.grid.cell_position(cell);
@@ -384,9 +392,11 @@ TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
           const Voigt<2> strain{du[0][0], du[1][1], du[0][1] + du[1][0]};
           peak = std::max(peak, testing::von_mises<2>(*model.materials.at_tread().isotropic(),
                                                       stress<2>(model.materials.at_tread(), strain)));
+          rotation = std::max(rotation, 0.5 * std::abs(du[1][0] - du[0][1]));
         }
       }
     EXPECT_NEAR(a.peak_von_mises[position] / peak, 1, 1e-8);
+    EXPECT_NEAR(a.deformations[position].largest_rotation / rotation, 1, 1e-8);
   }
 }
 
@@ -439,6 +449,11 @@ TEST(Report, JsonReadsBackToTheSameNumbers) {
     EXPECT_EQ(position["peak_friction_Pa"], a.positions[i].peak_friction);
     EXPECT_EQ(position["travel_along_ground_m"], a.positions[i].travel_along_ground);
     EXPECT_EQ(position["wind_up_rad"], a.positions[i].wind_up);
+    const PositionDeformation& deformation = a.deformations[i];
+    EXPECT_EQ(position["largest_rotation_rad"], deformation.largest_rotation);
+    EXPECT_EQ(position["root_mean_strain"], deformation.root_mean_strain);
+    EXPECT_EQ(position["linear_theory_error"], deformation.neglected.size());
+    EXPECT_EQ(position["linear_theory"]["of_rotation"], deformation.neglected.of_rotation);
   }
   const RollingVariation travel = rolling_variation(*a.travel_at_load);
   EXPECT_EQ(json["travel_at_load_m"]["mean"], travel.mean);

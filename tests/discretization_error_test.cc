@@ -413,7 +413,7 @@ class RandomSample {
     int& missing = missing_.at(dim)[is_symmetric(model, psi)];
     if (missing == 0) return;
     const auto of = estimated(model, psi);
-    if (!of.wheel.loaded || of.wheel.loaded->summary.deformation.travel > 0.3) return;
+    if (!of.wheel.loaded || of.wheel.loaded->deformation.travel > 0.3) return;
     Coverage own;
     if (!add_wheel(of, psi, own)) return;
     --missing;

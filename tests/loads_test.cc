@@ -168,7 +168,7 @@ TEST(Loads, TravelOfARotatingWheelIsMeasuredFromItsUnloadedPlace) {
       EXPECT_GT(contact.travel(), 0);
       EXPECT_LT(contact.travel(), 1e-6 + 1e-6 * load);
     }
-    stiffness.push_back(shape_summary<2>(*problem, psi, **state).stiffness);
+    stiffness.push_back(shape_summary<2>(*problem, **state).stiffness);
     EXPECT_GT(stiffness.back(), 0);
   }
   // A held travel begins there too, and gives the load back that caused it.

@@ -632,6 +632,8 @@ class NoSymmetry(unittest.TestCase):
                            ("run_out_m", float(row["run_out [m]"])),
                            ("peak_pressure_Pa", float(row["peak_pressure [Pa]"])),
                            ("largest_strain", max(p["peak_strain"] for p in positions)),
+                           ("largest_rotation_rad", max(p["largest_rotation_rad"] for p in positions)),
+                           ("linear_theory_error", max(p["linear_theory_error"] for p in positions)),
                            ("travel_by_ring_thickness", max(travels) / (OUTER - INNER)),
                            ("stiffness_N_per_m", sum(forces) / sum(travels))):
             self.assertClose(summary["after"][key], value, 1e-9 * abs(value), key)

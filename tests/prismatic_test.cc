@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/support.h"
+#include "wheelwright/quantities/analysis/position_deformation.h"
 #include "wheelwright/quantities/analysis/rolling_measures.h"
 #include "wheelwright/quantities/functionals/uniformity_dual.h"
 #include "wheelwright/shape/geometry/shapes.h"
@@ -58,7 +59,7 @@ LevelSet<dim> shape(const PolarGrid<dim>& grid, int degree, double radius) {
 
 /// What is compared: of one metre of width.
 struct Results {
-  std::vector<double> energy, travel, peak_pressure, friction, wind_up, derivative;
+  std::vector<double> energy, travel, peak_pressure, friction, wind_up, neglected, derivative;
 };
 
 template <int dim>
@@ -81,6 +82,11 @@ Results results(const RollingModel<dim>& model, const WeightedSum<dim>& terms, i
     found.friction.push_back(seen.friction_force * per_metre);
     found.wind_up.push_back(seen.wind_up);
   }
+  for (const auto& position : position_deformations<dim>(*problem, *evaluated->state)) {
+    found.neglected.push_back(position.neglected.of_rotation);
+    found.neglected.push_back(position.neglected.of_strain);
+    found.neglected.push_back(position.neglected.of_bending);
+  }
   // The derivative in three directions: the gradient as it is used.
   const auto gradient = evaluated->evaluation.gradient("objective");
   for (int k = 0; k < 3; ++k) {
@@ -98,6 +104,7 @@ Results results(const RollingModel<dim>& model, const WeightedSum<dim>& terms, i
 void expect_equal(const Results& a, const Results& b, double tolerance) {
   EXPECT_LT(relative_difference(a.energy, b.energy), tolerance);
   EXPECT_LT(relative_difference(a.travel, b.travel), tolerance);
+  EXPECT_LT(relative_difference(a.neglected, b.neglected), 10 * tolerance);
   EXPECT_LT(relative_difference(a.peak_pressure, b.peak_pressure), 10 * tolerance);
   if (norm<1>({b.friction[0]}) > 0) {
     EXPECT_LT(relative_difference(a.friction, b.friction), 10 * tolerance);

@@ -231,7 +231,7 @@ TEST(Quantities, AreTheNumbersOfTheAnalysis) {
     const auto psi = lopsided_holes(model.grid);
     const auto state = testing::all_states<2>(*problem, psi);
     ASSERT_TRUE(state) << state.failure().detail;
-    const auto summary = shape_summary<2>(*problem, psi, **state);
+    const auto summary = shape_summary<2>(*problem, **state);
     const auto contacts = contact_summaries<2>(**state);
     const auto& peaks = (*state)->strain_peaks();
     const auto value = [&](std::string_view quantity, Over over) {

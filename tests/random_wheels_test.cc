@@ -186,7 +186,7 @@ AnyEnd any_end_of(const Case& c) {
     const RollingAnalysis analysis = rolling_analysis<dim>(**solver, *state);
     for (const auto* values : {&analysis.travel_at_load, &analysis.force_at_travel})
       if (!*values && !is_explained(values->failure())) return failed(values->failure());
-    const double stiffness = shape_summary<dim>(**solver, shape, *state).stiffness;
+    const double stiffness = shape_summary<dim>(**solver, *state).stiffness;
     const auto& others = state->model().distributed;  // which may lift or inflate the wheel, as friction may
     const RollingModel<dim>& model = state->model();
     const bool is_pressed_only = norm<dim>(others.body_force) == 0 && others.hole_pressure == 0 &&

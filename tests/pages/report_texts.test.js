@@ -136,6 +136,8 @@ test("answers are in practical units", () => {
   assert.deepEqual(numbersIn(answerTo(answered, "stress")), [3, 250, 30]);
   assert.deepEqual(numbersIn(answerTo(answered, "travel")), [2]);
   assert.deepEqual(numbersIn(answerTo(answered, "strain")), [7, 4]);
+  const after = { ...wheel, linear_theory_error: 0.03 };
+  assert.deepEqual(numbersIn(answerTo({ ...answered, summary: { before: wheel, after } }, "strain")), [7, 4, 3]);
   assert.equal(numbersIn(answerTo(answered, "change"))[0], -50);
 });
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 namespace wheelwright {
 
 /// Kinds of numbers that are shown to the user, all in SI units.
@@ -14,7 +16,8 @@ enum class UnitKind {
   volume,
   stiffness,
   torsional_stiffness,
-  turns
+  turns,
+  angle
 };
 
 /// The unit of each kind. In 2D, energies, forces, torques, masses and stiffnesses are those of one
@@ -44,6 +47,8 @@ constexpr const char* unit(UnitKind kind) {
       return dim == 2 ? "N/rad" : "N m/rad";
     case UnitKind::turns:
       return "turns below a cell";
+    case UnitKind::angle:
+      return "rad";
   }
   return "";
 }
@@ -59,7 +64,7 @@ constexpr double whole_width(int dimension, double width) { return dimension == 
 /// Whether numbers of this kind are those of one metre of width in 2D.
 constexpr bool is_per_width(UnitKind kind) {
   return kind != UnitKind::length && kind != UnitKind::stress && kind != UnitKind::ratio &&
-         kind != UnitKind::turns;
+         kind != UnitKind::turns && kind != UnitKind::angle;
 }
 
 /// The ending of keys of numbers of this kind on the whole width, e.g. "N_per_m"; empty for ratios.
@@ -105,6 +110,8 @@ constexpr ShownUnit shown_unit(UnitKind kind, int dimension) {
       return {"%", 100};
     case UnitKind::stiffness:
       return {"N/mm", 1e-3};
+    case UnitKind::angle:
+      return {"deg", 180 / std::numbers::pi};
     default:
       return {unit<3>(kind), 1};
   }

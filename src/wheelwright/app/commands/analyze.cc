@@ -181,7 +181,7 @@ class AnalyzeCommand : public Subcommand {
       report.accurate = refined_numbers(with_levels_of_results(c), solver, shape, solved,
                                         *parse_accuracy(*accuracy_), print_contact_progress());
     print_report(report);
-    const auto size = deformation_size(solver, shape, **solved);
+    const auto size = deformation_size<dim>(solver, shape, **solved, report.analysis.deformations);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       warn_about(wheel.name, warning);
     if (output_) write(report, shape, solver, **solved);

@@ -99,7 +99,9 @@ template <int dim>
 Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const SolvedStates<dim>& states) {
   if (!states) return states.failure();
-  return LoadedWheel<dim>{shape_summary(solver, psi, **states), rolling_analysis(solver, **states)};
+  RollingAnalysis rolling = rolling_analysis(solver, **states);
+  const auto deformation = deformation_size<dim>(solver, psi, **states, rolling.deformations);
+  return LoadedWheel<dim>{shape_summary(solver, **states), std::move(rolling), deformation};
 }
 
 }  // namespace
@@ -255,11 +257,27 @@ std::vector<WheelNumber<dim>> numbers_under_load() {
                       }),
           number<dim>("largest_strain",
                       [](const Wheel& w) {
-                        return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
+                        return under_load(w, [](const Loaded& l) { return l.deformation.strain; });
                       }),
           number<dim>("strain_energy", [](const Wheel& w) {
             return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; });
           })};
+}
+
+/// How far the wheel is from what linear elasticity assumes, besides its largest strain.
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of_deformation() {
+  using Wheel = DescribedWheel<dim>;
+  using Loaded = LoadedWheel<dim>;
+  return {
+      {"largest rotation", UnitKind::angle, "largest_rotation_rad",
+       [](const Wheel& w) { return under_load(w, [](const Loaded& l) { return l.deformation.rotation; }); },
+       false, Converges::as_an_extreme},
+      {"largest travel by the ring's thickness", UnitKind::ratio, "travel_by_ring_thickness",
+       [](const Wheel& w) { return under_load(w, [](const Loaded& l) { return l.deformation.travel; }); }},
+      {"error of linear theory, estimated", UnitKind::ratio, "linear_theory_error", [](const Wheel& w) {
+         return under_load(w, [](const Loaded& l) { return l.deformation.error.size(); });
+       }}};
 }
 
 /// Measured on the curves fitted to the edges.
@@ -292,7 +310,8 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
         number<dim>("mass", [](const Wheel& w) -> Number {
           return w.mass ? Number(*w.mass * width(w)) : std::nullopt;
         })};
-    for (const auto& more : {numbers_under_load<dim>(), numbers_of_outline<dim>()})
+    for (const auto& more :
+         {numbers_under_load<dim>(), numbers_of_deformation<dim>(), numbers_of_outline<dim>()})
       all.insert(all.end(), more.begin(), more.end());
     return all;
   }();

@@ -11,6 +11,7 @@
 #include "wheelwright/cad/outline/outline.h"
 #include "wheelwright/cad/outline/roughness.h"
 #include "wheelwright/mechanics/state/load_case.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
@@ -23,6 +24,7 @@ template <int dim>
 struct LoadedWheel {
   ShapeSummary<dim> summary;
   RollingAnalysis rolling;
+  DeformationSize deformation;
 };
 
 /// Measurements on the curves fitted to the edges of a shape. Nothing when dim = 3, where edges are not plane

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "wheelwright/output/report/linear_theory_json.h"
+
 namespace wheelwright {
 namespace {
 
@@ -38,9 +40,8 @@ void add_details(const LoadedWheel<dim>& loaded, Json& json) {
                                   {"azimuth_rad", summary.von_mises.place[1]},
                                   {"load_position_rad", summary.von_mises.ground_azimuth}};
   if constexpr (dim == 3) json["peak_von_mises_place"]["z_m"] = summary.von_mises.place[2];
-  json["largest_rotation_rad"] = summary.deformation.rotation;
-  json["travel_by_ring_thickness"] = summary.deformation.travel;
-  json["edges_overlap"] = summary.deformation.edges_overlap;
+  json["linear_theory"] = to_json(loaded.deformation.error);
+  json["edges_overlap"] = loaded.deformation.edges_overlap;
 }
 
 }  // namespace

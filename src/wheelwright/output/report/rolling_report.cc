@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/output/report/linear_theory_json.h"
 #include "wheelwright/output/report/value_with_error.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 
@@ -57,6 +58,10 @@ PositionNumber of_position(const char* key, std::vector<double> RollingAnalysis:
   return {key, [=](const RollingAnalysis& a, size_t i) { return (a.*values)[i]; }};
 }
 
+PositionNumber of_deformation(const char* key, double PositionDeformation::*member) {
+  return {key, [=](const RollingAnalysis& a, size_t i) { return a.deformations[i].*member; }};
+}
+
 PositionNumber of_curve(const char* key, Expected<std::vector<double>> RollingAnalysis::*curve,
                         double factor) {
   return {key, [=](const RollingAnalysis& a, size_t i) {
@@ -83,6 +88,11 @@ std::vector<PositionNumber> position_numbers(const RollingReport& report) {
           of_contact("wind_up_rad", &ContactSummary::wind_up),
           extreme(of_position("peak_von_mises_Pa", &RollingAnalysis::peak_von_mises)),
           extreme(of_position("peak_strain", &RollingAnalysis::peak_strain)),
+          extreme(of_deformation("largest_rotation_rad", &PositionDeformation::largest_rotation)),
+          of_deformation("root_mean_strain", &PositionDeformation::root_mean_strain),
+          of_deformation("root_mean_rotation_rad", &PositionDeformation::root_mean_rotation),
+          {"linear_theory_error",
+           [](const RollingAnalysis& a, size_t i) { return a.deformations[i].neglected.size(); }},
           of_position(report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
                       &RollingAnalysis::strain_energy),
           of_curve("travel_at_load_m", &RollingAnalysis::travel_at_load, 1),
@@ -320,14 +330,42 @@ double stress_error(const RollingReport& report) {
                               finer(report)->refinement, Converges::as_an_extreme);
 }
 
+/// A number with its error if that is known.
+std::string with_known_error(double value, double error, double factor) {
+  return std::isfinite(error) ? text_with_error(value * factor, error * factor)
+                              : fmt::format("{:.4g}", value * factor);
+}
+
 std::string stress_line(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   return fmt::format(
       "largest von Mises stress {} MPa at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at {:.2f} "
       "deg\n",
-      finer(report) ? text_with_error(largest_stress(a) * MPa, stress_error(report) * MPa)
-                    : fmt::format("{:.4g}", largest_stress(a) * MPa),
+      with_known_error(largest_stress(a), finer(report) ? stress_error(report) : NAN, MPa),
       a.peak_radius * mm, a.peak_azimuth * degree, a.azimuths[a.most_stressed] * degree);
+}
+
+/// The position with the largest error of linear theory.
+const PositionDeformation& least_linear(const RollingAnalysis& analysis) {
+  return *std::ranges::max_element(analysis.deformations, {}, [](const PositionDeformation& position) {
+    return position.neglected.size();
+  });
+}
+
+std::string linear_theory_lines(const RollingReport& report) {
+  const RollingAnalysis& a = report.analysis;
+  const PositionDeformation& worst = least_linear(a);
+  const double rotation =
+      std::ranges::max(a.deformations, {}, &PositionDeformation::largest_rotation).largest_rotation;
+  return fmt::format(
+      "largest strain {} %, largest rotation {} deg\n"
+      "error of linear theory, estimated: {} % of travel and stiffness: the real wheel is stiffer by "
+      "{:+.2g} % (rotation) +-{:.2g} % (strain) {:+.2g} % (bending)\n",
+      with_known_error(std::ranges::max(a.peak_strain), largest_error("peak_strain", report), 100),
+      with_known_error(rotation, largest_error("largest_rotation_rad", report), degree),
+      with_known_error(worst.neglected.size(), largest_error("linear_theory_error", report), 100),
+      100 * worst.neglected.of_rotation, 100 * std::abs(worst.neglected.of_strain),
+      100 * worst.neglected.of_bending);
 }
 
 double mean_travel_under(const RollingReport& report, size_t load) {
@@ -386,7 +424,9 @@ Json variation_json(const ShownQuantity& q, double factor, int n_sectors) {
 Json positions_json(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   Json positions = Json::array();
-  for (const double azimuth : a.azimuths) positions.push_back({{"azimuth_rad", azimuth}});
+  for (size_t i = 0; i < a.positions.size(); ++i)
+    positions.push_back(
+        {{"azimuth_rad", a.azimuths[i]}, {"linear_theory", to_json(a.deformations[i].neglected)}});
   for (const PositionNumber& number : position_numbers(report)) {
     const auto errors = errors_of(number, report);
     for (size_t i = 0; i < a.positions.size(); ++i) {
@@ -459,7 +499,7 @@ std::string rolling_table(const RollingReport& report) {
   std::string table = position_lines(report) + '\n';
   if (has_friction(report)) table += friction_lines(report) + '\n';
   if (std::ranges::any_of(report.analysis.positions, has_gaps)) table += gap_lines(report) + '\n';
-  table += variation_lines(report) + '\n' + stress_line(report);
+  table += variation_lines(report) + '\n' + stress_line(report) + linear_theory_lines(report);
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   if (report.accurate) table += '\n' + accuracy_table(*report.accurate);

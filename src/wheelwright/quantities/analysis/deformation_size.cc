@@ -8,7 +8,6 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "wheelwright/shape/geometry/cell_map.h"
 #include "wheelwright/shape/geometry/contour.h"
 
 namespace wheelwright {
@@ -18,81 +17,6 @@ template <int dim>
 Lattice<dim> displacement_lattice(const StateSolver<dim>& solver) {
   return {solver.model().grid, solver.model().degree};
 }
-
-/// The rotation about the axle at the centres of the cells of the ring with material.
-template <int dim>
-class MiddleRotations {
- public:
-  MiddleRotations(const Lattice<dim>& lattice, const CutDomain<dim>& domain)
-      : grid_(domain.grid),
-        n_nodes_(nodes_per_cell<dim>(lattice.degree())),
-        sector_nodes_(lattice.n_nodes()) {
-    for (int row = 0; row < grid_.cells[0]; ++row) slopes_.push_back(slopes_in_row(lattice, row));
-    for (int column = 0; column < grid_.ring_columns(); ++column)
-      directions_.emplace_back(column * grid_.cell_size()[1]);
-    for (int k = 0; k < grid_.n_cells(); ++k)
-      if (const auto cell = grid_.cell_position(k); domain.active(k))
-        cells_.push_back({cell[0], cell[1], ring_cell_nodes<dim>(lattice, cell)});
-  }
-
-  /// The largest rotation of the material under a displacement against that of the rim.
-  double largest(const RingField& u, double rim) const {
-    double largest = 0;
-    for (int sector = 0; sector < grid_.n_sectors; ++sector)
-      for (const Cell& cell : cells_) largest = std::max(largest, std::abs(rotation(u, cell, sector) - rim));
-    return largest;
-  }
-
- private:
-  /// Gradients of the shape functions in the middle of a cell, in its frame.
-  using Slopes = std::array<Vec<dim>, ShapeFunctions<dim>::max_nodes>;
-
-  /// A cell of sector 0.
-  struct Cell {
-    int row, column;
-    RingCellNodes<dim> nodes;
-  };
-
-  /// The first axis of a cell's frame.
-  struct Direction {
-    explicit Direction(double azimuth) : cosine(std::cos(azimuth)), sine(std::sin(azimuth)) {}
-    double cosine, sine;
-  };
-
-  static Slopes slopes_in_row(const Lattice<dim>& lattice, int row) {
-    Vec<dim> middle;
-    middle.fill(0.5);
-    const ShapeFunctions<dim> shape(lattice.degree(), middle);
-    const CellMap<dim> map(lattice.grid(), lattice.degree(), {row});
-    const Mat<dim> inverse_jacobian = inverse<dim>(map.jacobian(shape));
-    Slopes slopes{};
-    for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
-      slopes[a] = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
-    return slopes;
-  }
-
-  /// From the antisymmetric part of grad u.
-  double rotation(const RingField& u, const Cell& cell, int sector) const {
-    const auto [cosine, sine] = directions_[sector * grid_.columns() + cell.column];
-    const Slopes& slopes = slopes_[cell.row];
-    const std::size_t first = sector * sector_nodes_, ring_nodes = grid_.n_sectors * sector_nodes_;
-    double twice = 0;  // d u_1 / d x_0 - d u_0 / d x_1
-    for (int a = 0; a < n_nodes_; ++a) {
-      const std::size_t node = first + cell.nodes[a];
-      const double* value = &u.values[dim * (node < ring_nodes ? node : node - ring_nodes)];
-      twice += (cosine * value[1] - sine * value[0]) * slopes[a][0] -
-               (cosine * value[0] + sine * value[1]) * slopes[a][1];
-    }
-    return 0.5 * twice;
-  }
-
-  PolarGrid<dim> grid_;
-  int n_nodes_;
-  std::size_t sector_nodes_;
-  std::vector<Slopes> slopes_;         ///< of every radial row
-  std::vector<Direction> directions_;  ///< of every column of the ring
-  std::vector<Cell> cells_;
-};
 
 /// A point of an edge, with the nodes of its cell and the values of their shape functions.
 struct EdgePoint {
@@ -208,22 +132,23 @@ double travel_by_thickness(const StateSolver<dim>& solver, const State<dim>& sta
 
 template <int dim>
 DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                 const State<dim>& state) {
-  const Lattice<dim> lattice = displacement_lattice(solver);
-  const MiddleRotations<dim> rotations(lattice, state.domain());
-  const auto all_edges = edges(psi, lattice);
-  const int n_nodes = nodes_per_cell<dim>(lattice.degree());
+                                 const State<dim>& state, std::span<const PositionDeformation> positions) {
   DeformationSize size{.strain = std::ranges::max(state.strain_peaks().principal),
                        .rotation = 0,
                        .travel = travel_by_thickness(solver, state),
-                       .edges_overlap = false};
-  for (int position = 0; position < state.positions().size(); ++position) {
-    const RingField u = state.displacement().at_nodes(position);
-    const double rim = state.contacts()[position].rim.rotation;
-    size.rotation = std::max(size.rotation, rotations.largest(u, rim));
-    size.edges_overlap = size.edges_overlap || cross_deformed(all_edges, u, n_nodes);
+                       .error = {},
+                       .edges_overlap = edges_overlap(solver, psi, state)};
+  for (const PositionDeformation& position : positions) {
+    size.rotation = std::max(size.rotation, position.largest_rotation);
+    if (position.neglected.size() > size.error.size()) size.error = position.neglected;
   }
   return size;
+}
+
+template <int dim>
+DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                 const State<dim>& state) {
+  return deformation_size<dim>(solver, psi, state, position_deformations(solver, state));
 }
 
 template <int dim>
@@ -239,11 +164,14 @@ std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const L
 }
 
 double share_of_small_load(const DeformationSize& size) {
-  return std::min({1.0, small_strain / size.strain, small_travel / size.travel});
+  return std::min(
+      {small_strain / size.strain, small_travel / size.travel, share_within(size.error, small_error)});
 }
 
 std::string deformation_warning(const DeformationSize& size) {
-  if (size.strain <= small_strain && size.travel <= small_travel && !size.edges_overlap) return "";
+  if (size.strain <= small_strain && size.travel <= small_travel && size.error.size() <= small_error &&
+      !size.edges_overlap)
+    return "";
   const double share = share_of_small_load(size);
   const std::string remedy =
       share < 1
@@ -252,23 +180,29 @@ std::string deformation_warning(const DeformationSize& size) {
                 100 * share, 1 / share)
           : "A smaller load or a stiffer material helps.";
   return fmt::format(
-      "large deformation: strains reach {:.3g} %, the material turns by up to {:.2g} deg, and the rim "
-      "travels "
-      "{:.3g} % of the ring's thickness{}. Linear elasticity holds up to about {:.0f} % of strain and {:.0f} "
-      "% "
-      "of travel; beyond, travel, pressures and stresses of the real wheel are different. {}",
-      100 * size.strain, size.rotation * 180 / std::numbers::pi, 100 * size.travel,
+      "large deformation: strains reach {:.3g} %, the material turns by up to {:.2g} deg, the rim travels "
+      "{:.3g} % of the ring's thickness, and linear theory errs by about {:.2g} % in travel and stiffness{}. "
+      "Linear elasticity holds up to about {:.0f} % of strain, {:.0f} % of travel and {:.0f} % of that "
+      "error; "
+      "beyond, travel, pressures and stresses of the real wheel are different. {}",
+      100 * size.strain, size.rotation * 180 / std::numbers::pi, 100 * size.travel, 100 * size.error.size(),
       size.edges_overlap ? ", and edges of holes cross each other" : "", 100 * small_strain,
-      100 * small_travel, remedy);
+      100 * small_travel, 100 * small_error, remedy);
 }
 
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                            \
+  template DeformationSize deformation_size<dim>(const StateSolver<dim>&, const LevelSet<dim>&, \
+                                                 const State<dim>&);                            \
+  template DeformationSize deformation_size<dim>(const StateSolver<dim>&, const LevelSet<dim>&, \
+                                                 const State<dim>&, std::span<const PositionDeformation>);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 template decltype(travel_by_thickness<2>) travel_by_thickness<2>;
 template decltype(edges_overlap<2>) edges_overlap<2>;
 template decltype(material_overlaps<2>) material_overlaps<2>;
-template decltype(deformation_size<2>) deformation_size<2>;
 template decltype(travel_by_thickness<3>) travel_by_thickness<3>;
 template decltype(edges_overlap<3>) edges_overlap<3>;
 template decltype(material_overlaps<3>) material_overlaps<3>;
-template decltype(deformation_size<3>) deformation_size<3>;
 
 }  // namespace wheelwright

@@ -68,6 +68,9 @@ RollingAnalysis of_all_positions(RollingAnalysis a, const LoadPositions& solved,
   a.azimuths.clear();
   for (size_t i = 0; i < sources.size(); ++i)
     a.azimuths.push_back(i * model.grid.sector_angle() / static_cast<double>(sources.size()));
+  const auto deformations = std::move(a.deformations);
+  a.deformations.clear();
+  for (const PositionSource& source : sources) a.deformations.push_back(deformations[source.solved]);
   for (auto* values : {&a.strain_energy, &a.peak_von_mises, &a.peak_strain})
     *values = of_all(solved, *values);
   for (auto* values : {&a.travel_at_load, &a.force_at_travel})
@@ -93,6 +96,7 @@ RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim
       .strain_energy = state.strain_energy(),
       .peak_von_mises = peaks.von_mises,
       .peak_strain = peaks.principal,
+      .deformations = position_deformations(solver, state),
       .most_stressed = static_cast<size_t>(worst),
       .peak_radius = peaks.von_mises_places[worst][0],
       .peak_azimuth = peaks.von_mises_places[worst][1],

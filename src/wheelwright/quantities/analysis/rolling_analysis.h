@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wheelwright/mechanics/state/state.h"
+#include "wheelwright/quantities/analysis/position_deformation.h"
 #include "wheelwright/quantities/analysis/rolling_measures.h"
 
 namespace wheelwright {
@@ -18,8 +19,9 @@ struct RollingAnalysis {
   std::vector<double> strain_energy;      ///< J_e [J/m]
   std::vector<double> peak_von_mises;     ///< [Pa]
   std::vector<double> peak_strain;        ///< absolute value of a principal strain
-  size_t most_stressed;                   ///< index of the position with the largest von Mises stress
-  double peak_radius, peak_azimuth;       ///< where it is, in polar coordinates of the body [m, rad]
+  std::vector<PositionDeformation> deformations;
+  size_t most_stressed;              ///< index of the position with the largest von Mises stress
+  double peak_radius, peak_azimuth;  ///< where it is, in polar coordinates of the body [m, rad]
 
   double load;    ///< the model's, or the mean of the forces at its travel
   double travel;  ///< the model's, or the mean of the travels under its load

@@ -29,8 +29,7 @@ StressPeak<dim> stress_peak(const StateSolver<dim>& solver, const State<dim>& st
 }
 
 template <int dim>
-ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                const State<dim>& state) {
+ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const State<dim>& state) {
   const auto contacts = contact_summaries(state);
   double force = 0, travel = 0, energy = 0;
   for (const ContactSummary& contact : contacts) {
@@ -42,8 +41,7 @@ ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const LevelSet<d
   return {.rolling = rolling_measures(contacts),
           .strain_energy = energy / contacts.size(),
           .stiffness = force / travel,
-          .von_mises = stress_peak(solver, state),
-          .deformation = deformation_size(solver, psi, state)};
+          .von_mises = stress_peak(solver, state)};
 }
 
 template decltype(contact_summaries<2>) contact_summaries<2>;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "wheelwright/mechanics/state/state.h"
-#include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/rolling_measures.h"
 
 namespace wheelwright {
@@ -21,13 +20,10 @@ struct ShapeSummary {
   double strain_energy;  ///< mean of the load positions [J], per metre of width when dim = 2
   double stiffness;      ///< mean radial force by mean travel [N/m], per metre of width when dim = 2
   StressPeak<dim> von_mises;
-  DeformationSize deformation;
 };
 
-/// Of a shape and its states.
 template <int dim>
-ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                const State<dim>& state);
+ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const State<dim>& state);
 
 /// The contacts of all load positions, mirror images included.
 template <int dim>

@@ -116,7 +116,7 @@ std::vector<FunctionValue> read_functions(ByteReader& reader) {
     bounds.upper = reader.number();
     edge_gradient = reader.finite_numbers("the gradient of a function at the edges");
     unit =
-        static_cast<UnitKind>(reader.integer(0, static_cast<int>(UnitKind::turns), "the unit of a function"));
+        static_cast<UnitKind>(reader.integer(0, static_cast<int>(UnitKind::angle), "the unit of a function"));
   });
 }
 

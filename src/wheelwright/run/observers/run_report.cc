@@ -152,7 +152,7 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary, co
                                    bound.name, bound.relation, bound.bound * bound.shown.factor,
                                    bound.shown.name, bound.value * bound.shown.factor, bound.shown.name));
   if (wheel.loaded)
-    if (const auto warning = deformation_warning(wheel.loaded->summary.deformation); !warning.empty())
+    if (const auto warning = deformation_warning(wheel.loaded->deformation); !warning.empty())
       result.push_back(warning);
   if (wheel.outline)
     for (const std::string& warning : feature_warnings(c, *wheel.outline)) result.push_back(warning);
@@ -179,6 +179,11 @@ std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel)
   std::vector<std::string> result{
       "The material is linear elastic: no creep, no heat, no fatigue. Whether it withstands the peak stress "
       "is not assessed."};
+  if (wheel.loaded)
+    result.push_back(fmt::format(
+        "Deformations are taken as small: this makes an error of about {:.2g} % in travel and stiffness, "
+        "estimated from the computed deformation.",
+        100 * wheel.loaded->deformation.error.size()));
   result.push_back(fmt::format(
       "Rolling is a sequence of {} load positions per sector, each in equilibrium: no inertia, no rolling "
       "resistance.",

@@ -26,7 +26,7 @@ std::vector<RunWarning> of_result(const RunSummary<dim>& summary, const RunView<
   const Case& c = run.study.source;
   const DescribedWheel<dim>& wheel = summary.after.wheel;
   std::vector<std::string> texts;
-  if (wheel.loaded) texts.push_back(deformation_warning(wheel.loaded->summary.deformation));
+  if (wheel.loaded) texts.push_back(deformation_warning(wheel.loaded->deformation));
   if (wheel.outline)
     for (std::string& warning : feature_warnings(c, *wheel.outline)) texts.push_back(std::move(warning));
   texts.push_back(roughness_warning(c, roughness(wheel), roughness(summary.before.wheel)));

@@ -36,7 +36,7 @@ Json warnings_json(const Case& c, const DescribedWheel<dim>& before, const Descr
   Json texts = Json::array();
   if (!now.loaded) texts.push_back(now.loaded.failure().detail);
   if (now.loaded)
-    if (auto text = deformation_warning(now.loaded->summary.deformation); !text.empty())
+    if (auto text = deformation_warning(now.loaded->deformation); !text.empty())
       texts.push_back(std::move(text));
   if (now.outline)
     for (auto& text : feature_warnings(c, *now.outline)) texts.push_back(std::move(text));

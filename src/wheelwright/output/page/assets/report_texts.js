@@ -103,7 +103,8 @@ const reportTexts = (() => {
     answer("travel", "How far does it sink?", `${shown(after.mean_travel_m * 1e3)} mm`);
     answer("load", "For which load?", `${shown(after.load_N)} N`);
     answer("strain", "Is it suited to this load?", `largest strain ${shown(100 * after.largest_strain)} %, travel ` +
-      `${shown(100 * after.travel_by_ring_thickness)} % of the ring`);
+      `${shown(100 * after.travel_by_ring_thickness)} % of the ring` + (Number.isFinite(after.linear_theory_error) ?
+        `; linear theory errs by about ${shown(100 * after.linear_theory_error)} % in travel and stiffness` : ""));
     answer("change", "What changed?", `travel ${change(before.mean_travel_m, after.mean_travel_m)}, run-out ` +
       `${change(before.run_out_m, after.run_out_m)}, peak stress ` +
       `${change(before.peak_von_mises_Pa, after.peak_von_mises_Pa)}`);
