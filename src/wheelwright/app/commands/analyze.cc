@@ -54,17 +54,13 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   return report;
 }
 
-/// The analysis under the same loads on the next finer grid, or why there is none.
+/// The analysis under the same loads on the finer grid.
 template <int dim>
-Expected<FinerReport, std::string> finer_report(const Case& c, const std::vector<double>& loads,
-                                                const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
-  const auto finer = finer_shape(c, solver, shape);
+Expected<FinerReport, std::string> finer_report(const Expected<SolvedFinerShape<dim>, std::string>& finer,
+                                                const std::vector<double>& loads) {
   if (!finer) return finer.failure();
-  const StateSolver<dim>& on_finer = *finer->solver;
-  const auto states = on_finer.states(finer->shape, on_finer.all_positions(), print_contact_progress());
-  if (!states) return why_not_on_finer_grid(states.failure());
-  return FinerReport{rolling_analysis(on_finer, **states), under_loads<dim>(**states, loads),
-                     finer->refinement};
+  return FinerReport{rolling_analysis(*finer->solver, *finer->states),
+                     under_loads<dim>(*finer->states, loads), finer->refinement};
 }
 
 void write_plots(const std::filesystem::path& folder, const RollingReport& report) {
@@ -176,16 +172,24 @@ class AnalyzeCommand : public Subcommand {
     if (const auto failure = material_overlaps(solver, shape, **solved))
       return report_failure(name(), *failure);
     RollingReport report = rolling_report(wheel, loads(), solver, **solved);
-    if (!without_errors_) report.finer = finer_report(with_levels_of_results(c), report.loads, solver, shape);
-    if (accuracy_)
-      report.accurate = refined_numbers(with_levels_of_results(c), solver, shape, solved,
-                                        *parse_accuracy(*accuracy_), print_contact_progress());
+    if (!without_errors_ || accuracy_) add_accuracy(with_levels_of_results(c), solver, shape, solved, report);
     print_report(report);
     const auto size = deformation_size<dim>(solver, shape, **solved, report.analysis.deformations);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       warn_about(wheel.name, warning);
     if (output_) write(report, shape, solver, **solved);
     return exit_done;
+  }
+
+  /// What finer grids say about the numbers. `c`: with the levels of the solver.
+  template <int dim>
+  void add_accuracy(const Case& c, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                    const SolvedStates<dim>& states, RollingReport& report) const {
+    auto finer = solved_finer_shape(c, solver, shape, print_contact_progress());
+    if (!without_errors_) report.finer = finer_report(finer, report.loads);
+    if (accuracy_)
+      report.accurate = refined_numbers(c, solver, shape, states, std::move(finer),
+                                        *parse_accuracy(*accuracy_), print_contact_progress());
   }
 
   std::vector<double> loads() const { return loads_ ? *parse_loads(*loads_) : std::vector<double>(); }

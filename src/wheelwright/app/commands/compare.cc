@@ -21,11 +21,9 @@ constexpr std::string_view files_of_comparison[] = {"comparison.txt", "compariso
 /// The wheel on the next finer grid, at all load positions.
 KnownFinerWheel<2> finer_wheel_of(const Case& c, const LoadCases<2>& cases, const StateSolver<2>& solver,
                                   const LevelSet<2>& shape) {
-  const auto finer = finer_shape(c, solver, shape);
+  const auto finer = solved_finer_shape(c, solver, shape, print_contact_progress());
   if (!finer) return finer.failure();
-  return finer_wheel(
-      c, cases, *finer,
-      finer->solver->states(finer->shape, finer->solver->all_positions(), print_contact_progress()));
+  return finer_wheel<2>(c, cases, *finer, SolvedStates<2>(finer->states));
 }
 
 /// Solves a wheel at its load positions, and for the errors of its numbers on a finer grid too.

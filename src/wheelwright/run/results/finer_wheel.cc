@@ -68,6 +68,17 @@ Expected<FinerShape<dim>, std::string> finer_shape(const Case& c, const StateSol
 }
 
 template <int dim>
+Expected<SolvedFinerShape<dim>, std::string> solved_finer_shape(const Case& c, const StateSolver<dim>& solver,
+                                                                const LevelSet<dim>& psi,
+                                                                const Interrupt& interrupt) {
+  auto finer = finer_shape(c, solver, psi);
+  if (!finer) return finer.failure();
+  auto states = finer->solver->states(finer->shape, finer->solver->all_positions(), interrupt);
+  if (!states) return why_not_on_finer_grid(states.failure());
+  return SolvedFinerShape<dim>{*std::move(finer), *std::move(states)};
+}
+
+template <int dim>
 KnownFinerWheel<dim> finer_wheel(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
                                  const SolvedStates<dim>& states) {
   if (!states) return why_not_on_finer_grid(states.failure());
@@ -116,10 +127,11 @@ void add_errors(const Case& c, const LoadCases<dim>& cases, const StateSolver<di
       on_finer ? discretization_error(*shape.objective, *on_finer, finer->refinement) : on_finer;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                      \
-  template decltype(finer_shape<dim>) finer_shape<dim>;   \
-  template decltype(finer_wheel<dim>) finer_wheel<dim>;   \
-  template decltype(objective_of<dim>) objective_of<dim>; \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                  \
+  template decltype(finer_shape<dim>) finer_shape<dim>;               \
+  template decltype(solved_finer_shape<dim>) solved_finer_shape<dim>; \
+  template decltype(finer_wheel<dim>) finer_wheel<dim>;               \
+  template decltype(objective_of<dim>) objective_of<dim>;             \
   template decltype(add_errors<dim>) add_errors<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "wheelwright/base/interrupt.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/output/report/run_summary.h"
 #include "wheelwright/run/study/study.h"
@@ -30,6 +31,18 @@ inline constexpr double max_unknowns_of_finer_grid = dim == 2 ? 5e6 : 1e6;
 template <int dim>
 Expected<FinerShape<dim>, std::string> finer_shape(const Case& c, const StateSolver<dim>& solver,
                                                    const LevelSet<dim>& psi);
+
+/// A shape on a finer grid with its states there.
+template <int dim>
+struct SolvedFinerShape : FinerShape<dim> {
+  std::shared_ptr<const State<dim>> states;
+};
+
+/// finer_shape(), solved at all load positions; or in one line why not.
+template <int dim>
+Expected<SolvedFinerShape<dim>, std::string> solved_finer_shape(const Case& c, const StateSolver<dim>& solver,
+                                                                const LevelSet<dim>& psi,
+                                                                const Interrupt& interrupt);
 
 /// The wheel on the finer grid in numbers, from its states there.
 template <int dim>

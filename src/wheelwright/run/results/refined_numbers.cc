@@ -80,13 +80,6 @@ bool are_accurate(const std::vector<AccurateNumber>& numbers, double accuracy) {
   });
 }
 
-/// At all load positions.
-template <int dim>
-KnownFinerWheel<dim> solved_on(const Case& c, const FinerShape<dim>& finer, const Interrupt& interrupt) {
-  return finer_wheel(c, LoadCases<dim>(), finer,
-                     finer.solver->states(finer.shape, finer.solver->all_positions(), interrupt));
-}
-
 }  // namespace
 
 template <int dim>
@@ -100,24 +93,21 @@ std::string place_of_stress(const DescribedWheel<dim>& wheel) {
 
 template <int dim>
 AccurateNumbers refined_numbers(const Case& c, const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                const SolvedStates<dim>& states, double accuracy,
+                                const SolvedStates<dim>& states,
+                                Expected<SolvedFinerShape<dim>, std::string> finer, double accuracy,
                                 const Interrupt& interrupt) {
   Refinement<dim> refined;
   const double fraction = volume_fraction(solver.model().grid, material_measure(psi));
   refined.wheels.push_back(
       described_solution(solver, psi, fraction, states, {}, own_numbers(c, solver, psi)));
-  std::optional<FinerShape<dim>> last;
-  do {
-    const auto finer = last ? finer_shape(c, *last->solver, last->shape) : finer_shape(c, solver, psi);
-    const KnownFinerWheel<dim> wheel = finer ? solved_on(c, *finer, interrupt) : finer.failure();
-    if (!wheel) {
-      refined.end = wheel.failure();
-      break;
-    }
+  for (; finer; finer = solved_finer_shape(c, *finer->solver, finer->shape, interrupt)) {
+    const auto wheel = finer_wheel<dim>(c, {}, *finer, SolvedStates<dim>(finer->states));
+    finer->states.reset();  // the next ones need the memory
     refined.wheels.back() = with_errors(std::move(refined.wheels.back()), wheel);
     refined.wheels.push_back(wheel->wheel);
-    last = *finer;
-  } while (!are_accurate(numbers_of(refined, accuracy), accuracy));
+    if (are_accurate(numbers_of(refined, accuracy), accuracy)) break;
+  }
+  if (!finer) refined.end = finer.failure();
   return {accuracy, text(last_with_errors(refined).grid), numbers_of(refined, accuracy)};
 }
 

@@ -9,10 +9,12 @@ namespace wheelwright {
 /// The numbers of a shape, solved on finer and finer grids until the estimated error of each is at most
 /// `accuracy` times its size, or until the next grid costs too much or cannot be solved (finer_shape). Those
 /// of the last grid but one, whose errors are known. `states`: by the solver, at all load positions; they
-/// must exist.
+/// must exist. `finer`: the same shape on the first finer grid, or why it is not known.
 template <int dim>
 AccurateNumbers refined_numbers(const Case& c, const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                const SolvedStates<dim>& states, double accuracy, const Interrupt& interrupt);
+                                const SolvedStates<dim>& states,
+                                Expected<SolvedFinerShape<dim>, std::string> finer, double accuracy,
+                                const Interrupt& interrupt);
 
 /// Where the largest stress of a wheel is, in words: at the rim, at the tread, or inside the ring.
 template <int dim>
