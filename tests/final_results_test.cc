@@ -8,7 +8,9 @@
 #include "wheelwright/output/report/gains.h"
 #include "wheelwright/run/observers/expectations.h"
 #include "wheelwright/run/observers/run_report.h"
+#include "wheelwright/run/results/bounds_on_finer_grid.h"
 #include "wheelwright/run/results/finer_wheel.h"
+#include "wheelwright/run/results/refined_numbers.h"
 
 namespace wheelwright::testing {
 namespace {
@@ -131,6 +133,131 @@ TEST_F(ResultsOfARun, AreShownWithoutFailedNumbers) {
   EXPECT_TRUE(lines[0].ends_with(told)) << lines[0];
   EXPECT_NE(summary_table(some_results.summary).find(lines[0]), std::string::npos);
   EXPECT_TRUE(missing_lines(results(study, {}).summary).empty());
+}
+
+TEST_F(ResultsOfARun, AreRefinedFromTheFinerShapeThatIsGiven) {
+  const Study<2> study = this->study("");
+  const auto& solver = *study.solver;
+  const auto states = solver.states(study.initial, solver.all_positions(), Interrupt());
+  const auto finer = solved_finer_shape<2>(study.source, solver, study.initial, Interrupt());
+  ASSERT_TRUE(states && finer);
+  const Interrupt no_more([] { return true; });
+  const AccurateNumbers given =
+      refined_numbers<2>(study.source, solver, study.initial, states, finer, 1e-12, no_more);
+  int n_estimated = 0;
+  for (const AccurateNumber& number : given.numbers) n_estimated += number.error.has_value();
+  EXPECT_GE(n_estimated, 10);
+  EXPECT_EQ(given.numbers.back().reason.find("interrupted") != std::string::npos, true)
+      << given.numbers.back().reason;
+}
+
+/// One value of a bound on a quantity, on some grid.
+std::vector<BoundState> bound_of(char relation, double value, double bound) {
+  return {{.name = "mean_travel",
+           .value = value,
+           .bound = bound,
+           .relation = relation,
+           .multiplier = 0,
+           .violation = 0,
+           .unit = UnitKind::length}};
+}
+
+/// A bound that is kept on the grid of the run, where the value is `here`.
+SummarizedBound checked(char relation, double here, double on_finer, double bound,
+                        const Quantity& quantity = built_in("mean_travel")) {
+  std::vector<SummarizedBound> bounds{{.name = "mean_travel",
+                                       .value = here,
+                                       .bound = bound,
+                                       .relation = relation,
+                                       .multiplier = 0,
+                                       .is_kept = true,
+                                       .kept_within = 0,
+                                       .unit = "m",
+                                       .shown = shown_unit(UnitKind::length, 2)}};
+  const std::vector<ShapeFunction<2>> functions{{.name = "mean_travel", .terms = {}, .quantity = quantity}};
+  add_finer_values<2>(functions, bound_of(relation, here, bound), bound_of(relation, on_finer, bound), 2,
+                      bounds);
+  return bounds.front();
+}
+
+// On the finer grid the error of the first order is the difference of both values, which is doubled for
+// safety.
+TEST(BoundsOnFinerGrid, AreKeptOnlyByTheValueWithItsError) {
+  const auto verdict = [](char relation, double here, double on_finer, double bound) {
+    return (*checked(relation, here, on_finer, bound).finer)->verdict;
+  };
+  EXPECT_NEAR((*checked('<', 4e-3, 4.1e-3, 5e-3).finer)->error, 2e-4, 1e-15);
+  EXPECT_EQ(verdict('<', 4e-3, 4.1e-3, 4.31e-3), FinerVerdict::kept);
+  EXPECT_EQ(verdict('<', 4e-3, 4.1e-3, 4.29e-3), FinerVerdict::within_error);
+  EXPECT_EQ(verdict('<', 4e-3, 4.1e-3, 3.91e-3), FinerVerdict::within_error);
+  EXPECT_EQ(verdict('<', 4e-3, 4.1e-3, 3.89e-3), FinerVerdict::broken);
+  EXPECT_EQ(verdict('>', 4e-3, 3.9e-3, 3.69e-3), FinerVerdict::kept);
+  EXPECT_EQ(verdict('>', 4e-3, 3.9e-3, 4e-3), FinerVerdict::within_error);
+  EXPECT_EQ(verdict('>', 4e-3, 3.9e-3, 4.11e-3), FinerVerdict::broken);
+  EXPECT_EQ(verdict('=', 4e-3, 3.9e-3, 4e-3), FinerVerdict::within_error);
+  EXPECT_EQ(verdict('<', 4e-3, 4.0001e-3, 4e-3), FinerVerdict::kept);  // within 0.1 %, as on the own grid
+}
+
+TEST(BoundsOnFinerGrid, OnExtremesNeedTwiceTheMargin) {
+  const auto integral = checked('<', 4e-3, 4.1e-3, 5e-3),
+             extreme = checked('<', 4e-3, 4.1e-3, 5e-3, built_in("peak_pressure"));
+  EXPECT_NEAR((*extreme.finer)->error, 2 * (*integral.finer)->error, 1e-15);
+}
+
+TEST(BoundsOnFinerGrid, AreToldWithTheTighterBoundThatWouldKeepThem) {
+  EXPECT_EQ(finer_grid_warning(checked('<', 4e-3, 4.1e-3, 5e-3)), "");
+  const auto tighter = [](const SummarizedBound& bound) {
+    const std::string text = finer_grid_warning(bound);
+    return std::stod(text.substr(text.find("tighten it to ") + 14));
+  };
+  EXPECT_NEAR(tighter(checked('<', 4e-3, 4.1e-3, 4e-3)), 3.7, 1e-9);  // 4.1 + 0.2 is 0.3 beyond it
+  EXPECT_NEAR(tighter(checked('<', 4e-3, 4.1e-3, 3.8e-3)), 3.3, 1e-9);
+  EXPECT_NEAR(tighter(checked('>', 4e-3, 3.9e-3, 4e-3)), 4.3, 1e-9);
+  for (const SummarizedBound& bound : {checked('=', 4e-3, 3.9e-3, 4e-3), checked('<', 4e-3, 6e-3, 4e-3)}) {
+    EXPECT_NE(finer_grid_warning(bound), "");
+    EXPECT_EQ(finer_grid_warning(bound).find("tighten"), std::string::npos);
+  }
+  SummarizedBound violated = checked('<', 4e-3, 4.1e-3, 3.8e-3);
+  violated.is_kept = false;  // which is told anyway
+  EXPECT_EQ(finer_grid_warning(violated), "");
+}
+
+// A bound at the stiffness that the wheel has on its own grid, and one that it keeps on any.
+TEST_F(ResultsOfARun, TellWhichBoundsAFinerGridDoesNotKeep) {
+  const auto bounded = [&](double stiffness) {
+    return this->study(
+        fmt::format("[[constraint]]\nquantity = \"stiffness\"\nat_least = {}\n"
+                    "[[constraint]]\nquantity = \"mean_travel\"\nat_most = 0.1\n",
+                    stiffness));
+  };
+  const auto summary = results(bounded(1e6), {}).summary;
+  const double here = summary.bounds[0].value, finer = (*summary.bounds[0].finer)->value;
+  const double width = summary.after.wheel.grid.width;
+  const auto json = nlohmann::json::parse(summary_json(summary));
+  // The error of the summary's stiffness on the whole width, from another path: integral, cells halved.
+  EXPECT_NEAR(json["after"]["errors"]["stiffness_N_per_m"].get<double>(), 4 * std::abs(here - finer) * width,
+              1e-6 * here * width);
+  ASSERT_GT(here - finer, 2e-3 * here);  // too stiff, as displacements on coarse grids are too small
+  const FinalResults<2> at_bound = results(bounded(here), {});
+  const auto bounds = nlohmann::json::parse(summary_json(at_bound.summary))["bounds"];
+  EXPECT_EQ(bounds[0]["is_kept"], true);
+  EXPECT_EQ(bounds[0]["on_finer_grid"]["verdict"], "within_error");
+  EXPECT_NEAR(bounds[0]["on_finer_grid"]["value"], finer, 1e-6 * finer);
+  EXPECT_EQ(bounds[1]["on_finer_grid"]["verdict"], "kept");
+  const SolvedShape<2> shape{&state_->shape, at_bound.solver.get(), at_bound.shown.get()};
+  const ReportRun<2> run = report_of_results<2>(folder(), bounded(here).source, at_bound.summary, shape,
+                                                shown_wheel(shape), StopReason::converged);
+  const std::string warning = finer_grid_warning(at_bound.summary.bounds[0]);
+  EXPECT_NE(std::ranges::find(run.flags, warning), run.flags.end());
+  EXPECT_EQ(finer_grid_warning(at_bound.summary.bounds[1]), "");
+}
+
+TEST_F(ResultsOfARun, TellNothingOfFinerGridsWithoutErrors) {
+  Study<2> study = this->study("[[constraint]]\nquantity = \"stiffness\"\nat_least = 1e6\n");
+  study.source.output.errors = ErrorEstimates::none;
+  const auto summary = results(study, {}).summary;
+  EXPECT_FALSE(summary.bounds[0].finer);
+  EXPECT_FALSE(nlohmann::json::parse(summary_json(summary))["bounds"][0].contains("on_finer_grid"));
 }
 
 TEST_F(ResultsOfARun, HaveErrorsOfTheLastShapeUnderEveryLoad) {

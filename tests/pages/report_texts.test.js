@@ -25,6 +25,15 @@ test("a value is shown with its error, in the unit of the table", () => {
   assert.deepEqual(travel.cells.map(({ text }) => text).slice(0, 2), ["2", "1.23 \u00b1 0.02"]);
 });
 
+test("a change that the errors of both values may explain is marked", () => {
+  const change = (value, error) => reportTexts.comparison([group("", { mean_travel_m: 2e-3, errors: { mean_travel_m: 1e-5 } },
+    { mean_travel_m: value, errors: { mean_travel_m: error } })]).rows[0].cells[2].text;
+  assert.ok(change(2.025e-3, 2e-5).endsWith("~"));
+  assert.ok(!change(2.035e-3, 2e-5).endsWith("~"));
+  assert.ok(!change(2e-3, 2e-5).endsWith("~"));
+  assert.ok(!change(2.025e-3, null).endsWith("~"));
+});
+
 test("quantities that no wheel has are not compared", () => {
   assert.equal(reportTexts.comparison([group("", { mass_kg: 4 }, {})]).rows.length, 1);
 });
@@ -88,6 +97,20 @@ test("a bound and the verdict name the tolerance without which the bound is not 
   const run = { flags: [], summary: { before: {}, after: {}, bounds: [{ is_kept: true, kept_within: 1e-3 }, { is_kept: true }] } };
   assert.match(reportTexts.verdict(run), /both bounds are kept within 0\.1 %/i);
   assert.doesNotMatch(reportTexts.verdict({ ...run, summary: { ...run.summary, bounds: [{ is_kept: true }] } }), /within/);
+});
+
+test("a bound and the verdict tell what a finer grid says", () => {
+  const stateOf = (verdict, is_kept = true) => {
+    const run = boundRun("<", 0.005, 0.005, { multiplier: 2, is_kept });
+    run.summary.bounds[0].on_finer_grid = { value: 0.00501, error: 2e-5, verdict };
+    return columns(reportTexts.boundRow(run, 0)).state;
+  };
+  assert.equal(new Set(["kept", "within_error", "broken", undefined].map((verdict) => stateOf(verdict))).size, 4);
+  assert.match(stateOf("broken"), /broken on a finer grid/);
+  assert.equal(stateOf("broken", false), "not kept");
+  const bounds = ["kept", "within_error", "broken"].map((verdict) => ({ is_kept: true, on_finer_grid: { verdict } }));
+  const run = { flags: [], summary: { before: {}, after: {}, bounds } };
+  assert.deepEqual(numbersIn(reportTexts.verdict(run)), [3, 2]);
 });
 
 test("the multiplier is in the units of the objective and the bound", () => {

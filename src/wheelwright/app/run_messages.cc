@@ -37,16 +37,30 @@ void report_findings(const std::vector<Finding>& findings, std::FILE* stream) {
     if (!finding.met()) print_err("wheelwright: {}\n", finding.text());
 }
 
-/// Prints which bounds the last shape keeps.
+/// Whether a finer grid keeps a bound too, as far as is known.
+bool is_kept_on_finer_grid(const BoundState& bound, const std::vector<SummarizedBound>& checked) {
+  const auto found = std::ranges::find_if(checked, [&](const SummarizedBound& one) {
+    return one.name == bound.name && one.relation == bound.relation;
+  });
+  return found != checked.end() && found->finer && *found->finer &&
+         (*found->finer)->verdict == FinerVerdict::kept;
+}
+
+/// Prints which bounds the last shape keeps; `checked`: on a finer grid too.
 template <int dim>
-void report_bounds(const OptimizationState<dim>& state, std::FILE* stream) {
+void report_bounds(const OptimizationState<dim>& state, std::FILE* stream,
+                   const std::vector<SummarizedBound>& checked = {}) {
   for (const BoundState& bound : bound_states(state.evaluation, state.memory.multipliers)) {
     const std::string line = text(bound, state.shape.lattice.grid());
     if (bound.is_kept())
-      print_to(stream, "bound      {}\n", line);
+      print_to(stream, "bound      {}{}\n", line,
+               is_kept_on_finer_grid(bound, checked) ? ", on a finer grid too" : "");
     else
       print_err("wheelwright: bound {}\n", line);
   }
+  for (const SummarizedBound& bound : checked)
+    if (const std::string warning = finer_grid_warning(bound); !warning.empty())
+      print_to(stream, "           {}\n", warning);
 }
 
 /// One overload for each reason not to start.
@@ -206,7 +220,8 @@ int report_result(const RunResult<dim>& result, const fs::path& folder, const Si
     report_failure(result, folder);
     return code;
   }
-  report_bounds(*result.state, stdout);
+  report_bounds(*result.state, stdout,
+                result.summary ? result.summary->bounds : std::vector<SummarizedBound>());
   if (result.summary && !result.summary->bounded_peaks.empty())
     print("           {}\n", result.summary->bounded_peaks);
   report_findings(result.findings, stdout);

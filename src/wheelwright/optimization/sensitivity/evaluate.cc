@@ -200,6 +200,19 @@ ByStates<dim> by_states(std::span<const ShapeFunction<dim>> functions,
 }  // namespace
 
 template <int dim>
+std::vector<FunctionValue> function_values(const StateSolver<dim>& solver,
+                                           std::span<const ShapeFunction<dim>> functions,
+                                           const LevelSet<dim>& psi,
+                                           std::span<const State<dim>* const> states) {
+  const auto of_cases = case_states(solver, states);
+  const FunctionalValues<dim> functionals(functions, solver, psi, std::span<const CaseStates<dim>>(of_cases),
+                                          nullptr);
+  auto values = by_states<dim>(functions, functionals, solver, of_cases, false).values;
+  for (FunctionValue& value : values) value.gradient = value.edge_gradient = {};
+  return values;
+}
+
+template <int dim>
 Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
                                         std::span<const ShapeFunction<dim>> functions,
                                         const LevelSet<dim>& psi, std::span<const State<dim>* const> states,
@@ -303,6 +316,7 @@ Expected<std::vector<std::vector<double>>> topological_derivatives(
       const StateSolver<dim>&, const LoadCases<dim>&, std::span<const ShapeFunction<dim>>,                  \
       const LevelSet<dim>&, std::span<const State<dim>* const>, std::span<const MaterialPoint<dim>>,        \
       double);                                                                                              \
+  template decltype(function_values<dim>) function_values<dim>;                                             \
   template Expected<Evaluation<dim>> differentiate(const StateSolver<dim>&,                                 \
                                                    std::span<const ShapeFunction<dim>>,                     \
                                                    const LevelSet<dim>&, const State<dim>&, const Matrix*); \

@@ -14,6 +14,14 @@ struct Evaluated {
   StatesOfCases<dim> others = {};           ///< under the others
 };
 
+/// The values of the functions from the states of one shape, one state for every load case, without
+/// gradients.
+template <int dim>
+std::vector<FunctionValue> function_values(const StateSolver<dim>& solver,
+                                           std::span<const ShapeFunction<dim>> functions,
+                                           const LevelSet<dim>& psi,
+                                           std::span<const State<dim>* const> states);
+
 /// Values and shape gradients (42) of the functions from the states of one shape. The adjoints of all
 /// functions in one load case are one block of right-hand sides. `held_mean`: the mean of the contact stress
 /// that uniformity functionals compare with (Evaluation::mean_observations of an earlier shape, as the paper

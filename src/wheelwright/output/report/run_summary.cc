@@ -9,6 +9,7 @@
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/report/comparison_table.h"
 #include "wheelwright/output/report/numbers_json.h"
+#include "wheelwright/output/report/value_with_error.h"
 
 namespace wheelwright {
 namespace {
@@ -45,7 +46,55 @@ std::vector<ComparedRow> rows(const RunSummary<dim>& summary) {
   return result;
 }
 
+const char* word(FinerVerdict verdict) {
+  return verdict == FinerVerdict::kept           ? "kept"
+         : verdict == FinerVerdict::within_error ? "within_error"
+                                                 : "broken";
+}
+
+Json bound_json(const SummarizedBound& bound) {
+  Json json{{"name", bound.name},      {"value", bound.value}, {"relation", std::string(1, bound.relation)},
+            {"bound", bound.bound},    {"unit", bound.unit},   {"multiplier", bound.multiplier},
+            {"is_kept", bound.is_kept}};
+  if (bound.kept_within > 0) json["kept_within"] = bound.kept_within;
+  if (!bound.finer) return json;
+  const auto& finer = *bound.finer;
+  json["on_finer_grid"] =
+      finer ? Json{{"value", finer->value}, {"error", finer->error}, {"verdict", word(finer->verdict)}}
+            : Json{{"missing", finer.failure()}};
+  return json;
+}
+
+/// How to keep a bound on the finer grid too.
+std::string remedy(const SummarizedBound& bound, const BoundOnFinerGrid& finer) {
+  constexpr double most = 0.5;  // a bound that must be this much tighter needs another grid
+  const double excess = beyond(bound, finer.value) + finer.error;
+  if (bound.relation == '=' || excess > most * std::abs(bound.bound)) return "Use a finer grid.";
+  const double tighter = bound.bound + (bound.relation == '<' ? -excess : excess);
+  return fmt::format("To keep it, tighten it to {:.4g} {}, or use a finer grid.",
+                     tighter * bound.shown.factor, bound.shown.name);
+}
+
 }  // namespace
+
+double beyond(const SummarizedBound& bound, double value) {
+  const double difference = value - bound.bound;
+  return bound.relation == '<' ? difference : bound.relation == '>' ? -difference : std::abs(difference);
+}
+
+std::string finer_grid_warning(const SummarizedBound& bound) {
+  if (!bound.is_kept || !bound.finer || !*bound.finer) return "";
+  const BoundOnFinerGrid& finer = **bound.finer;
+  if (finer.verdict == FinerVerdict::kept) return "";
+  const auto& [unit, factor] = bound.shown;
+  return fmt::format(
+      "The bound {} {} {:.6g} {} is kept on this grid, but {} on a finer one, where the value is {} {}. {}",
+      bound.name, bound.relation, bound.bound * factor, unit,
+      finer.verdict == FinerVerdict::within_error
+          ? std::string("not within the error")
+          : fmt::format("broken by {:.2g} {}", beyond(bound, finer.value) * factor, unit),
+      text_with_error(finer.value * factor, finer.error * factor), unit, remedy(bound, finer));
+}
 
 template <int dim>
 std::vector<std::string> missing_lines(const RunSummary<dim>& summary) {
@@ -66,16 +115,7 @@ std::string summary_json(const RunSummary<dim>& summary) {
             {"width_m", summary.after.wheel.grid.width},
             {"before", shape_json(summary.before, summary.minimized)},
             {"after", shape_json(summary.after, summary.minimized)}};
-  for (const SummarizedBound& bound : summary.bounds) {
-    json["bounds"].push_back({{"name", bound.name},
-                              {"value", bound.value},
-                              {"relation", std::string(1, bound.relation)},
-                              {"bound", bound.bound},
-                              {"unit", bound.unit},
-                              {"multiplier", bound.multiplier},
-                              {"is_kept", bound.is_kept}});
-    if (bound.kept_within > 0) json["bounds"].back()["kept_within"] = bound.kept_within;
-  }
+  for (const SummarizedBound& bound : summary.bounds) json["bounds"].push_back(bound_json(bound));
   json["remarks"] = Json::array();
   for (const Remark& remark : summary.remarks)
     json["remarks"].push_back({{"key", remark.key},

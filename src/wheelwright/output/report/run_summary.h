@@ -21,6 +21,19 @@ struct SummarizedShape {
   std::optional<KnownNumber> objective_error = {};
 };
 
+/// Whether a bound is kept on a finer grid.
+enum class FinerVerdict {
+  kept,          ///< by the value with its error
+  within_error,  ///< not known: the bound lies within the error of the value
+  broken         ///< by more than the error
+};
+
+/// The value of a bounded quantity on a finer grid, with the estimate of its error there.
+struct BoundOnFinerGrid {
+  double value, error;  ///< in the unit of the bound
+  FinerVerdict verdict;
+};
+
 /// A bound on a quantity, at the last shape. In SI units; in 2D forces, energies, masses and stiffnesses per
 /// metre of width.
 struct SummarizedBound {
@@ -32,7 +45,16 @@ struct SummarizedBound {
   double kept_within;  ///< the relative tolerance if the value is beyond the bound and counts as kept, else 0
   const char* unit;    ///< of value and bound
   ShownUnit shown;     ///< as tables show them
+  /// Nothing: no errors are wanted; the reason if they could not be estimated.
+  std::optional<Expected<BoundOnFinerGrid, std::string>> finer = {};
 };
+
+/// By how much a value is beyond a bound, in its unit; negative within it.
+double beyond(const SummarizedBound& bound, double value);
+
+/// For a bound that is kept on the grid of the run but not, or not certainly, on the finer one: one line that
+/// says so, and what to do. Empty for others.
+std::string finer_grid_warning(const SummarizedBound& bound);
 
 /// The result of a run, compared with the wheel that its case gives. Both shapes are solved on a tread of the
 /// same resolution.

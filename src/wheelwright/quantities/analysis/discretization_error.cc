@@ -9,6 +9,10 @@ double discretization_error(double value, double on_finer_grid, double refinemen
   return error_safety(how) * std::abs(value - on_finer_grid) / (1 - 1 / refinement);
 }
 
+double error_on_finer_grid(double value, double on_finer_grid, double refinement, Converges how) {
+  return discretization_error(value, on_finer_grid, refinement, how) / refinement;
+}
+
 std::vector<double> discretization_errors(std::span<const double> values,
                                           std::span<const double> on_finer_grid, double refinement,
                                           Converges how) {

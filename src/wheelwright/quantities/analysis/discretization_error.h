@@ -24,6 +24,10 @@ constexpr double error_safety(Converges how) { return how == Converges::as_an_in
 double discretization_error(double value, double on_finer_grid, double refinement,
                             Converges how = Converges::as_an_integral);
 
+/// The same for the number on the finer grid: smaller by the factor r, as errors of the first order are.
+double error_on_finer_grid(double value, double on_finer_grid, double refinement,
+                           Converges how = Converges::as_an_integral);
+
 /// All numbers of a wheel come from the same displacements. Where a number happens to be nearly the same on
 /// both grids, its relative error is still at least this share of the largest one of travel, stiffness and
 /// strain energy.

@@ -151,6 +151,9 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary, co
       result.push_back(fmt::format("The bound {} {} {:.6g} {} is not kept: the value is {:.6g} {}.",
                                    bound.name, bound.relation, bound.bound * bound.shown.factor,
                                    bound.shown.name, bound.value * bound.shown.factor, bound.shown.name));
+  for (const SummarizedBound& bound : summary.bounds)
+    if (std::string warning = finer_grid_warning(bound); !warning.empty())
+      result.push_back(std::move(warning));
   if (wheel.loaded)
     if (const auto warning = deformation_warning(wheel.loaded->deformation); !warning.empty())
       result.push_back(warning);

@@ -1,5 +1,6 @@
 #include "wheelwright/run/results/final_results.h"
 
+#include "wheelwright/run/results/bounds_on_finer_grid.h"
 #include "wheelwright/run/results/finer_wheel.h"
 #include "wheelwright/run/results/given_wheel.h"
 #include "wheelwright/run/results/own_numbers.h"
@@ -18,28 +19,58 @@ bool is_interruption(const Expected<T>& result) {
 template <int dim>
 class Solutions {
  public:
-  Solutions(const LoadCases<dim>& cases, const Interrupt& interrupt) : cases_(cases), interrupt_(interrupt) {}
+  Solutions(const Study<dim>& study, const Interrupt& interrupt) : study_(study), interrupt_(interrupt) {}
 
   SolvedStates<dim> of(const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
-    auto states = solver.states(shape, distinct_positions(solver, cases_, shape), interrupt_);
+    auto states = solver.states(shape, positions_of_results(study_, solver, shape), interrupt_);
     is_interrupted_ = is_interrupted_ || is_interruption(states);
     return states;
   }
   bool is_interrupted() const { return is_interrupted_; }
 
  private:
-  const LoadCases<dim>& cases_;
+  const Study<dim>& study_;
   const Interrupt& interrupt_;
   bool is_interrupted_ = false;
 };
 
 /// The solver of the results; null if it is the study's own.
 template <int dim>
-std::shared_ptr<const StateSolver<dim>> finer_solver(const Study<dim>& study) {
+std::shared_ptr<const StateSolver<dim>> solver_of_results(const Study<dim>& study) {
   const Case c = study.computed();
   if (tread_levels_of_results(c) == tread_levels(c)) return nullptr;
   auto finer = make_solver(rolling_model<dim>(with_levels_of_results(c)));
   return finer ? *std::move(finer) : nullptr;
+}
+
+/// The bounds at a shape on the grid of the solver.
+template <int dim>
+Expected<std::vector<BoundState>, std::string> known_bounds(const Study<dim>& study,
+                                                            const StateSolver<dim>& solver,
+                                                            const LevelSet<dim>& shape,
+                                                            const SolvedStates<dim>& states) {
+  auto bounds = bounds_of(study.source, study.load_cases, solver, shape, states);
+  if (!bounds) return to_string(bounds.failure());
+  return *std::move(bounds);
+}
+
+/// Estimates the errors of a summary's last shape on a finer grid; `shown` are its states by the solver.
+template <int dim>
+void add_errors(const Study<dim>& study, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                const SolvedStates<dim>& shown, Solutions<dim>& solutions, RunSummary<dim>& summary) {
+  const auto finer = finer_shape(study.source, solver, shape);
+  if (!finer) {
+    set_missing_errors(finer.failure(), summary.after);
+    for (SummarizedBound& bound : summary.bounds)
+      bound.finer = Expected<BoundOnFinerGrid, std::string>(finer.failure());
+    return;
+  }
+  const auto states = solutions.of(*finer->solver, finer->shape);
+  if (!summary.bounds.empty())
+    add_finer_values(study.functions, known_bounds(study, solver, shape, shown),
+                     known_bounds(study, *finer->solver, finer->shape, states), finer->refinement,
+                     summary.bounds);
+  set_errors(study.source, study.load_cases, *finer, states, summary.after);
 }
 
 }  // namespace
@@ -55,12 +86,12 @@ template <int dim>
 FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>& initial,
                                 const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,
                                 const Interrupt& interrupt) {
-  Solutions<dim> solutions(study.load_cases, interrupt);
+  Solutions<dim> solutions(study, interrupt);
   const SolvedStates<dim> own =
       solved.last ? SolvedStates<dim>(solved.last) : solutions.of(*study.solver, state.shape);
   SolvedStates<dim> shown = own;
   std::shared_ptr<const StateSolver<dim>> solver = study.solver;
-  if (const auto finer = own ? finer_solver(study) : nullptr)
+  if (const auto finer = own ? solver_of_results(study) : nullptr)
     if (auto states = solutions.of(*finer, state.shape)) {
       shown = std::move(states);
       solver = finer;
@@ -77,10 +108,7 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
   const auto objective = objective_as_given(study, initial, interrupt);
   auto summary = summarized_run(study, initial, objective, before, state, after);
   if (shown && study.source.output.errors == ErrorEstimates::estimated)
-    add_errors<dim>(
-        study.source, study.load_cases, *solver, state.shape,
-        [&](const StateSolver<dim>& of, const LevelSet<dim>& shape) { return solutions.of(of, shape); },
-        summary.after);
+    add_errors(study, *solver, state.shape, shown, solutions, summary);
   return {.own = own,
           .solver = solver,
           .shown = shown ? *shown : nullptr,

@@ -3,17 +3,24 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "wheelwright/base/available_memory.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
-#include "wheelwright/quantities/functionals/mean_contact_stress.h"
 #include "wheelwright/run/results/own_numbers.h"
+#include "wheelwright/run/study/bounded_functions.h"
 #include "wheelwright/run/study/problem_size.h"
 #include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
+
+template <int dim>
+LoadPositions positions_of_results(const Study<dim>& study, const StateSolver<dim>& solver,
+                                   const LevelSet<dim>& shape) {
+  return are_mirror_symmetric<dim>(study.functions, MirrorPlane::azimuth)
+             ? distinct_positions(solver, study.load_cases, shape)
+             : solver.all_positions();
+}
 
 std::string why_not_on_finer_grid(const Failure& failure) {
   return "on the finer grid: " + to_string(failure);
@@ -31,30 +38,55 @@ Case with_grid_of(Case c, const RollingModel<dim>& model) {
   return c;
 }
 
+template <int dim>
+double memory_on(const Case& c, const RollingModel<dim>& model) {
+  return estimated_memory(problem_size(with_grid_of(c, model)));
+}
+
 /// Why a finer grid costs too much; empty if it does not.
 template <int dim>
 std::string excess(const Case& c, const RollingModel<dim>& finer) {
   const double unknowns = dof_bound(finer), most = max_unknowns_of_finer_grid<dim>;
   if (unknowns > most)
     return fmt::format("the finer grid would have {:.2g} unknowns, more than {:.2g}", unknowns, most);
-  const double needed = estimated_memory(problem_size(with_grid_of(c, finer)));
+  const double needed = memory_on(c, finer);
   const auto available = available_memory();
   if (!available || needed <= *available) return "";
   return fmt::format("the finer grid needs about {:.0f} MB of memory, but only {:.0f} MB are available",
                      needed / 1e6, *available / 1e6);
 }
 
+/// The values of functions at a shape, whose states under the other load cases are found from those under
+/// the first.
 template <int dim>
-double value_of(const WeightedFunctional<dim>& term, const FinerShape<dim>& finer, const State<dim>& state) {
-  const Matrix mean = mean_observations(finer.solver->tread_surface(), state);
-  const auto value = term.functional->evaluate(*finer.solver, finer.shape, state, mean);
-  const double of_positions =
-      std::inner_product(value.by_position.begin(), value.by_position.end(),
-                         state.positions().multiplicities.begin(), value.over_positions.value_or(0));
-  return term.weight * (value.of_shape + of_positions);
+Expected<std::vector<FunctionValue>> values_of(std::span<const ShapeFunction<dim>> functions,
+                                               const LoadCases<dim>& cases, const StateSolver<dim>& solver,
+                                               const LevelSet<dim>& shape, const SolvedStates<dim>& states) {
+  if (!states) return states.failure();
+  StatesOfCases<dim> kept{*states};
+  for (std::size_t k = 1; k < cases.size(); ++k) {
+    auto other = (*states)->under(with_loads((*states)->model(), cases[k].model), Interrupt());
+    if (!other) return other.failure();
+    kept.push_back(*std::move(other));
+  }
+  std::vector<const State<dim>*> of_cases;
+  for (const auto& one : kept) of_cases.push_back(one.get());
+  return function_values<dim>(solver, functions, shape, of_cases);
 }
 
 }  // namespace
+
+template <int dim>
+std::string cells_text(const PolarGrid<dim>& grid) {
+  std::string cells = fmt::format("{} x {}", grid.cells[0], grid.ring_columns());
+  if constexpr (dim == 3) cells += fmt::format(" x {}", grid.cells[2]);
+  return cells + " cells";
+}
+
+template <int dim>
+double memory_on_finer_grid(const Case& c) {
+  return memory_on(c, on_finer_grid(rolling_model<dim>(c)));
+}
 
 template <int dim>
 Expected<FinerShape<dim>, std::string> finer_shape(const Case& c, const StateSolver<dim>& solver,
@@ -92,47 +124,58 @@ KnownFinerWheel<dim> finer_wheel(const Case& c, const LoadCases<dim>& cases, con
 template <int dim>
 KnownNumber objective_of(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
                          const SolvedStates<dim>& states) {
-  if (!states) return why_not_on_finer_grid(states.failure());
   if (c.objective.annulus_matches_dual)
     return std::string("a weight of the objective is found on the grid of the run");
   const auto functions = shape_functions(c, *finer.solver);
   if (!functions) return why_not_on_finer_grid(functions.failure());
-  double sum = 0;
-  for (const WeightedFunctional<dim>& term : functions->front().terms) {
-    const auto state =
-        term.load_case == 0
-            ? states
-            : (*states)->under(with_loads((*states)->model(), cases[term.load_case].model), Interrupt());
-    if (!state) return why_not_on_finer_grid(state.failure());
-    sum += value_of(term, finer, **state);
-  }
-  if (!std::isfinite(sum)) return std::string("it is not finite on the finer grid");
-  return sum;
+  const auto values =
+      values_of<dim>(std::span(&functions->front(), 1), cases, *finer.solver, finer.shape, states);
+  if (!values) return why_not_on_finer_grid(values.failure());
+  if (!std::isfinite(values->front().value)) return std::string("it is not finite on the finer grid");
+  return values->front().value;
 }
 
 template <int dim>
-void add_errors(const Case& c, const LoadCases<dim>& cases, const StateSolver<dim>& solver,
-                const LevelSet<dim>& psi, const SolveShape<dim>& solve, SummarizedShape<dim>& shape) {
-  const auto finer = finer_shape(c, solver, psi);
-  if (!finer) {
-    shape.wheel = with_errors(std::move(shape.wheel), KnownFinerWheel<dim>(finer.failure()));
-    shape.objective_error = KnownNumber(finer.failure());
-    return;
-  }
-  const auto states = solve(*finer->solver, finer->shape);
-  shape.wheel = with_errors(std::move(shape.wheel), finer_wheel(c, cases, *finer, states));
-  if (!shape.objective) return;
-  const KnownNumber on_finer = objective_of(c, cases, *finer, states);
-  shape.objective_error =
-      on_finer ? discretization_error(*shape.objective, *on_finer, finer->refinement) : on_finer;
+Expected<std::vector<BoundState>> bounds_of(const Case& c, const LoadCases<dim>& cases,
+                                            const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                                            const SolvedStates<dim>& states) {
+  const auto functions = bounded_functions(c, solver, shape);
+  if (!functions) return functions.failure();
+  auto values = values_of<dim>(*functions, cases, solver, shape, states);
+  if (!values) return values.failure();
+  Evaluation<dim> evaluation;
+  evaluation.functions = *std::move(values);
+  return bound_states(evaluation, {});
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                  \
-  template decltype(finer_shape<dim>) finer_shape<dim>;               \
-  template decltype(solved_finer_shape<dim>) solved_finer_shape<dim>; \
-  template decltype(finer_wheel<dim>) finer_wheel<dim>;               \
-  template decltype(objective_of<dim>) objective_of<dim>;             \
-  template decltype(add_errors<dim>) add_errors<dim>;
+template <int dim>
+void set_missing_errors(const std::string& why, SummarizedShape<dim>& shape) {
+  shape.wheel = with_errors(std::move(shape.wheel), KnownFinerWheel<dim>(why));
+  shape.objective_error = KnownNumber(why);
+}
+
+template <int dim>
+void set_errors(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
+                const SolvedStates<dim>& states, SummarizedShape<dim>& shape) {
+  shape.wheel = with_errors(std::move(shape.wheel), finer_wheel(c, cases, finer, states));
+  if (!shape.objective) return;
+  const KnownNumber on_finer = objective_of(c, cases, finer, states);
+  shape.objective_error =
+      on_finer ? discretization_error(*shape.objective, *on_finer, finer.refinement) : on_finer;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                      \
+  template LoadPositions positions_of_results(const Study<dim>&, const StateSolver<dim>&, \
+                                              const LevelSet<dim>&);                      \
+  template decltype(cells_text<dim>) cells_text<dim>;                                     \
+  template decltype(memory_on_finer_grid<dim>) memory_on_finer_grid<dim>;                 \
+  template decltype(finer_shape<dim>) finer_shape<dim>;                                   \
+  template decltype(solved_finer_shape<dim>) solved_finer_shape<dim>;                     \
+  template decltype(finer_wheel<dim>) finer_wheel<dim>;                                   \
+  template decltype(objective_of<dim>) objective_of<dim>;                                 \
+  template decltype(bounds_of<dim>) bounds_of<dim>;                                       \
+  template decltype(set_missing_errors<dim>) set_missing_errors<dim>;                     \
+  template decltype(set_errors<dim>) set_errors<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

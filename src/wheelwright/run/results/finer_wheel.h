@@ -6,10 +6,25 @@
 
 #include "wheelwright/base/interrupt.h"
 #include "wheelwright/case/case.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/output/report/run_summary.h"
 #include "wheelwright/run/study/study.h"
 
 namespace wheelwright {
+
+/// The load positions that determine all results of a study's shape: one of each mirror-image pair if the
+/// shape, its loads and the functions of the study are their own mirror image.
+template <int dim>
+LoadPositions positions_of_results(const Study<dim>& study, const StateSolver<dim>& solver,
+                                   const LevelSet<dim>& shape);
+
+/// E.g. "56 x 768 cells".
+template <int dim>
+std::string cells_text(const PolarGrid<dim>& grid);
+
+/// Peak memory for solving a case's shapes on the next finer grid [bytes]; see estimated_memory().
+template <int dim>
+double memory_on_finer_grid(const Case& c);
 
 /// "on the finer grid: REASON: DETAIL".
 std::string why_not_on_finer_grid(const Failure& failure);
@@ -54,14 +69,20 @@ template <int dim>
 KnownNumber objective_of(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
                          const SolvedStates<dim>& states);
 
-/// Solves a shape under the first load case at the positions that results need.
+/// The bounds of a case (bounded_functions) at a shape, from its states on any grid. Without multipliers.
 template <int dim>
-using SolveShape = std::function<SolvedStates<dim>(const StateSolver<dim>&, const LevelSet<dim>&)>;
+Expected<std::vector<BoundState>> bounds_of(const Case& c, const LoadCases<dim>& cases,
+                                            const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                                            const SolvedStates<dim>& states);
 
-/// Adds estimates of the errors of a summarized shape, which `solver` solved, and of its objective, from a
-/// solution on the finer grid; or why there is none.
+/// Sets the estimates of the errors of a summarized shape's numbers and of its objective from the shape's
+/// states on the finer grid.
 template <int dim>
-void add_errors(const Case& c, const LoadCases<dim>& cases, const StateSolver<dim>& solver,
-                const LevelSet<dim>& psi, const SolveShape<dim>& solve, SummarizedShape<dim>& shape);
+void set_errors(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim>& finer,
+                const SolvedStates<dim>& states, SummarizedShape<dim>& shape);
+
+/// Says in their place why there are none.
+template <int dim>
+void set_missing_errors(const std::string& why, SummarizedShape<dim>& shape);
 
 }  // namespace wheelwright

@@ -13,13 +13,6 @@
 namespace wheelwright {
 namespace {
 
-template <int dim>
-std::string text(const PolarGrid<dim>& grid) {
-  std::string cells = fmt::format("{} x {}", grid.cells[0], grid.ring_columns());
-  if constexpr (dim == 3) cells += fmt::format(" x {}", grid.cells[2]);
-  return cells + " cells";
-}
-
 /// The wheel on grids of which each is finer than the one before, and why there is no finer one.
 template <int dim>
 struct Refinement {
@@ -108,7 +101,7 @@ AccurateNumbers refined_numbers(const Case& c, const StateSolver<dim>& solver, c
     if (are_accurate(numbers_of(refined, accuracy), accuracy)) break;
   }
   if (!finer) refined.end = finer.failure();
-  return {accuracy, text(last_with_errors(refined).grid), numbers_of(refined, accuracy)};
+  return {accuracy, cells_text(last_with_errors(refined).grid), numbers_of(refined, accuracy)};
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                            \

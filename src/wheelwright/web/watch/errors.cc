@@ -27,12 +27,14 @@ SummarizedShape<dim> with_estimates(const WatchedShape<dim>& shape, const Interr
       shape.number, shape.objective,
       described_solution<dim>(solver, shape.psi, volume_fraction(solver.model().grid, shape.measure),
                               shape.solutions.front(), cases, own_numbers(c, solver, shape.psi))};
-  add_errors<dim>(
-      c, cases, solver, shape.psi,
-      [&](const StateSolver<dim>& finer, const LevelSet<dim>& psi) {
-        return finer.states(psi, distinct_positions(finer, cases, psi), interrupt);
-      },
-      result);
+  const auto finer = finer_shape(c, solver, shape.psi);
+  if (!finer) {
+    set_missing_errors(finer.failure(), result);
+    return result;
+  }
+  const auto states =
+      finer->solver->states(finer->shape, distinct_positions(*finer->solver, cases, finer->shape), interrupt);
+  set_errors<dim>(c, cases, *finer, states, result);
   return result;
 }
 

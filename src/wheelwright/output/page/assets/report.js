@@ -20,7 +20,9 @@
     const head = element("thead", {}, ...(groups.length > 1 ? [above] : []), tableHead(["quantity", ...names]));
     const body = element("tbody", {}, ...rows.map(({ title, cells }) => element("tr", {}, element("th", { scope: "row" }, title),
       ...cells.map(({ key, text }) => element("td", key === null ? {} : { "data-key": key }, text)))));
-    return element("div", { class: "wide" }, element("table", {}, head, body));
+    const table = element("div", { class: "wide" }, element("table", {}, head, body));
+    return rows.some(({ cells }) => cells.some(({ text }) => text.endsWith("~"))) ?
+      element("div", {}, table, element("p", { class: "quiet" }, "~ the change is smaller than the discretization errors")) : table;
   }
 
   function bounds(run) {

@@ -4,9 +4,16 @@ const reportTexts = (() => {
   const { degree, shown, withError, change, within, minutes, sentence, words } = formats;
   const none = "\u2013";
 
+  // Whether two values differ, but by no more than the errors that are known of them.
+  function isWithinErrors(first, other, key) {
+    const difference = Math.abs(other[key] - first[key]);
+    return difference > 0 && difference <= (first.errors?.[key] ?? 0) + (other.errors?.[key] ?? 0);
+  }
+
   // Columns of wheels with their change relative to the first one, in groups that may have a name: `names`, those of the
   // columns after the first; `rows`: { title, cells: [{ text, key }] }, without the quantities that no wheel has. `key` is
-  // that of the quantity in the summary, or null for a change.
+  // that of the quantity in the summary, or null for a change; a change that the errors of the two values may explain is marked
+  // with "~".
   function comparison(groups) {
     const columns = (of) => groups.flatMap(({ wheels }) => wheels.flatMap((wheel, k) => of(wheel, k, wheels)));
     const rows = groups[0].units
@@ -16,7 +23,8 @@ const reportTexts = (() => {
         const missing = isOfShape ? "" : none, both = [wheels[0].numbers[key], numbers[key]];
         const value = { key, text: Number.isFinite(numbers[key]) ?
           withError(numbers[key] * factor, (numbers.errors?.[key] ?? NaN) * factor) : missing };
-        return k === 0 ? [value] : [value, { key: null, text: both.every(Number.isFinite) ? change(...both) : missing }];
+        const mark = isWithinErrors(wheels[0].numbers, numbers, key) ? " ~" : "";
+        return k === 0 ? [value] : [value, { key: null, text: both.every(Number.isFinite) ? change(...both) + mark : missing }];
       }) }));
     return { names: columns(({ name }, k) => k === 0 ? [name] : [name, "change"]), rows };
   }
@@ -41,9 +49,14 @@ const reportTexts = (() => {
 
   const boundTitles = ["bound", "limit", "before", "after", "margin", "margin [%]", "state", "multiplier"];
 
+  // What a finer grid says about a bound that is kept, after that word.
+  const finerVerdicts = { kept: ", on a finer grid too", within_error: ", but not within the error on a finer grid",
+    broken: ", but broken on a finer grid" };
+
   // A bound at the last shape that the run computed, in the units of tables: the texts of its row, below boundTitles.
   function boundRow(run, k) {
-    const { name, value: last, bound: limit, relation, multiplier, is_kept: isKept, kept_within: tolerance } = run.summary.bounds[k];
+    const { name, value: last, bound: limit, relation, multiplier, is_kept: isKept, kept_within: tolerance,
+      on_finer_grid: finer } = run.summary.bounds[k];
     const column = Object.keys(run.history).find((one) => one.startsWith(`bounded ${name} [`));
     const before = (run.history[column] ?? []).find((value) => value !== null);
     const { unit, factor } = run.bound_units[k];
@@ -53,7 +66,7 @@ const reportTexts = (() => {
       before === undefined ? none : shown(before * factor), shown(value), shown(margin),
       bound ? shown(100 * margin / Math.abs(bound)) : none,
       !isKept ? "not kept" : (relation === "=" || multiplier !== 0 ? "active" : "not active") +
-        (tolerance ? `, kept${within(tolerance)}` : ""),
+        (tolerance ? `, kept${within(tolerance)}` : "") + (finerVerdicts[finer?.verdict] ?? ""),
       `${shown(price)}${price ? ` ${run.objective.unit} per ${unit}` : ""}`];
   }
 
@@ -66,10 +79,11 @@ const reportTexts = (() => {
     if (Number.isFinite(before.stiffness_N_per_m) && Number.isFinite(after.stiffness_N_per_m))
       facts.push(`the stiffness by ${change(before.stiffness_N_per_m, after.stiffness_N_per_m)}`);
     const broken = all.filter(({ is_kept }) => !is_kept).length;
+    const doubtful = all.filter(({ on_finer_grid: finer }) => finer?.verdict && finer.verdict !== "kept").length;
     const tolerance = within(Math.max(0, ...all.map(({ kept_within: one }) => one ?? 0)));
     if (all.length) facts.push(broken ? `${broken} of ${all.length} bounds ${broken > 1 ? "are" : "is"} not kept` :
       (all.length > 2 ? `all ${all.length} bounds are kept` : all.length > 1 ? "both bounds are kept" : "the bound is kept") +
-        tolerance);
+        tolerance + (doubtful ? `, ${doubtful} of them not within the error on a finer grid` : ""));
     facts.push(run.flags.length === 0 ? "there are no remarks" :
       `there ${run.flags.length > 1 ? `are ${run.flags.length} remarks` : "is a remark"} below`);
     return sentence(`${facts.slice(0, -1).join(", ")}${facts.length > 1 ? "; " : ""}${facts.at(-1)}.`);
