@@ -20,6 +20,7 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/output/report/comparison_table.h"
 #include "wheelwright/output/report/value_with_error.h"
+#include "wheelwright/output/report/within_errors.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
@@ -56,6 +57,12 @@ TEST(DiscretizationError, IsLargerThanTheErrorOfHigherOrders) {
 
 TEST(DiscretizationError, OfAnExtremeIsTwiceAsLarge) {
   EXPECT_EQ(discretization_error(1, 1.5, 2, Converges::as_an_extreme), 2 * discretization_error(1, 1.5, 2));
+}
+
+TEST(DiscretizationError, OnTheFinerGridIsThatOfTheFirstOrderThereTimesItsSafety) {
+  for (const double r : {4.0 / 3, 2.0})
+    for (const double h : {0.1, 0.03})
+      EXPECT_NEAR(error_on_finer_grid(at_size(h, 1), at_size(h / r, 1), r), 2 * h / r, 1e-12);
 }
 
 TEST(DiscretizationError, OfPositionsIsAtLeastTheirUsualOne) {
@@ -102,6 +109,37 @@ TEST(ComparisonTable, MarksChangesThatTheErrorsMayExplain) {
   EXPECT_FALSE(is_marked(clear));
   EXPECT_FALSE(is_marked(unknown));
   EXPECT_NE(comparison_table({"a", "b"}, {small}).find("1.010 +- 0.007"), std::string::npos);
+}
+
+using Groups = std::vector<std::vector<std::size_t>>;
+
+TEST(WithinErrors, GroupsAreThoseOfWhichAnyTwoAreUndecided) {
+  const auto groups = [](std::vector<EstimatedValue> values) { return groups_within_errors(values); };
+  EXPECT_EQ(groups({{1, 0.1}, {1.3, 0.1}}), Groups{});
+  EXPECT_EQ(groups({{1.15, 0.1}, {1, 0.1}}), (Groups{{1, 0}}));
+  EXPECT_EQ(groups({{1, 0.1}, {1.05, 0.1}, {1.15, 0.1}, {5, 0.1}}), (Groups{{0, 1, 2}}));
+  // A chain: its ends are in order.
+  EXPECT_EQ(groups({{1.3, 0.1}, {1, 0.1}, {1.15, 0.1}}), (Groups{{1, 2}, {2, 0}}));
+  EXPECT_EQ(groups({{1, 0.1}, {1, 0.1}}), Groups{});
+  EXPECT_EQ(groups({{1, 0}, {1, 0}, {1.1, 0.2}}), (Groups{{0, 1, 2}}));
+  EXPECT_EQ(groups({}), Groups{});
+}
+
+TEST(ComparisonTable, TellsTheWheelsThatAreNotInOrder) {
+  const std::vector<ComparedRow> rows{{"travel", {1.0, 2.0, 1.01}, {0.01, 0.01, 0.01}},
+                                      {"run-out", {1.0, 1.02, 1.01}, {0.011, 0.011, 0.011}},
+                                      {"stiffness", {3.0, 1.02, 3.01}, {0.01, 0.01, 0.01}},
+                                      {"mass", {1.0, 1.0, 1.0001}, {}},
+                                      {"load", {5.0, 5.0, 5.0}, {0.0, 0.0, 0.0}}};
+  const auto undecided = undecided_numbers(rows);
+  ASSERT_EQ(undecided.size(), 2u);
+  EXPECT_EQ(undecided[0].wheels, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(undecided[0].rows, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(undecided[1].wheels, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(undecided[1].rows, (std::vector<std::size_t>{1}));
+  const std::string table = comparison_table({"x", "y", "z"}, rows);
+  EXPECT_NE(table.find("x and z differ by less than their errors in travel, stiffness\n"), std::string::npos)
+      << table;
 }
 
 // --- The finer grid ----------------------------------------------------------------------------------------
@@ -222,18 +260,27 @@ double scale_of(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel
   return key.starts_with("run_out") ? rolling.travel : rolling.load * whole_width(dim, wheel.grid.width);
 }
 
+/// Of the numbers of a grid, and of those of the finer one.
+struct Coverages {
+  Coverage own = {}, finer = {};
+};
+
 /// Adds all numbers of a wheel; the truth is on the grid that is finer than the finer one. False if it cannot
 /// be solved there or on the finer one.
 template <int dim>
-bool add_wheel(const Estimated<dim>& of, const LevelSet<dim>& psi, Coverage& coverage) {
+bool add_wheel(const Estimated<dim>& of, const LevelSet<dim>& psi, Coverages& coverages) {
   const auto finest = on_finer_grid(of.finer);
   const DescribedWheel<dim> truth = described_on(finest, on_grid(psi, finest.grid));
   if (!truth.loaded || !(*of.wheel.finer)->wheel.loaded) return false;
   for (const WheelNumber<dim>& number : wheel_numbers<dim>()) {
     const auto value = known_value(number, of.wheel), exact = known_value(number, truth);
     const auto error = error_of(number, of.wheel);
-    if (value && exact && error && *error)
-      coverage.add(number.key, **error, std::abs(*value - *exact), *value, scale_of(number, of.wheel));
+    if (!value || !exact || !error || !*error) continue;
+    const FinerWheel<dim>& finer = **of.wheel.finer;
+    const double on_finer = *known_value(number, finer.wheel), scale = scale_of(number, of.wheel);
+    coverages.own.add(number.key, **error, std::abs(*value - *exact), *value, scale);
+    coverages.finer.add(number.key, error_on_finer_grid(*value, on_finer, finer.refinement, number.converges),
+                        std::abs(on_finer - *exact), on_finer, scale);
   }
   return true;
 }
@@ -356,21 +403,25 @@ TEST(DiscretizationError, ContainsThatOfAWheelWithoutSymmetry) {
   model.n_positions = 4;
   const auto psi =
       testing::holes(model.grid, 2, {{0.26, 0.3 * model.grid.sector_angle(), 0.03}, {0.285, 0.62, 0.015}});
-  Coverage coverage;
-  ASSERT_TRUE(add_wheel(estimated(model, psi), psi, coverage));
-  EXPECT_GE(coverage.all, 10);
-  EXPECT_EQ(coverage.contained, coverage.all);
-  EXPECT_LE(coverage.median(), 8);  // of a single wheel, which converges faster than the first order
+  Coverages coverages;
+  ASSERT_TRUE(add_wheel(estimated(model, psi), psi, coverages));
+  for (Coverage* coverage : {&coverages.own, &coverages.finer}) {
+    EXPECT_GE(coverage->all, 10);
+    EXPECT_EQ(coverage->contained, coverage->all);
+  }
+  EXPECT_LE(coverages.own.median(), 8);  // of a single wheel, which converges faster than the first order
 }
 
 TEST(DiscretizationError, ContainsThatOfASolidWheelWithoutSymmetry) {
   const auto model = solid_model({6, 6, 2});
   const Circle hole{0.2581, 0.4 * model.grid.sector_angle(), 0.03};
   const auto psi = make_level_set<3>(Lattice<3>(model.grid, 1), std::span(&hole, 1));
-  Coverage coverage;
-  ASSERT_TRUE(add_wheel(estimated(model, psi), psi, coverage));
-  EXPECT_GE(coverage.all, 10);
-  EXPECT_GE(coverage.share(), 0.9);
+  Coverages coverages;
+  ASSERT_TRUE(add_wheel(estimated(model, psi), psi, coverages));
+  for (const Coverage& coverage : {coverages.own, coverages.finer}) {
+    EXPECT_GE(coverage.all, 10);
+    EXPECT_GE(coverage.share(), 0.9);
+  }
 }
 
 /// Without it, all load positions are solved.
@@ -385,7 +436,7 @@ class RandomSample {
   RandomSample(unsigned seed, int plane, int solid)
       : wheels_(seed), missing_{{2, {plane / 2, plane / 2}}, {3, {solid / 2, solid / 2}}} {}
 
-  Coverage coverage() {
+  Coverages coverages() {
     while (!is_complete()) {
       const CaseResult read = parse_case(to_toml(wheels_.draw()), "random.toml");
       if (read.value)
@@ -394,7 +445,7 @@ class RandomSample {
           return 0;
         });
     }
-    return coverage_;
+    return coverages_;
   }
 
  private:
@@ -414,26 +465,30 @@ class RandomSample {
     if (missing == 0) return;
     const auto of = estimated(model, psi);
     if (!of.wheel.loaded || of.wheel.loaded->deformation.travel > 0.3) return;
-    Coverage own;
-    if (!add_wheel(of, psi, own)) return;
+    Coverages of_wheel;
+    if (!add_wheel(of, psi, of_wheel)) return;
+    const Coverage& own = of_wheel.own;
     --missing;
     std::cout << dim << "D, " << (is_symmetric(model, psi) ? "symmetric: " : "without symmetry: ")
               << own.contained << " of " << own.all << " numbers within their errors" << own.misses
               << std::endl;
-    coverage_ += own;
+    coverages_.own += own;
+    coverages_.finer += of_wheel.finer;
   }
 
   testing::AnyWheels wheels_;
   std::map<int, std::array<int, 2>> missing_;  ///< [dimension][is it symmetric]
-  Coverage coverage_;
+  Coverages coverages_;
 };
 
 TEST(DiscretizationError, ContainsThatOfRandomWheelsSlow) {
-  Coverage coverage = RandomSample(5, 40, 20).coverage();
-  std::cout << coverage.all << " numbers, " << 100 * coverage.share()
-            << " % within the stated error, median of stated by true error " << coverage.median() << "\n";
-  EXPECT_GE(coverage.share(), 0.95);
-  EXPECT_LE(coverage.median(), 5);
+  Coverages coverages = RandomSample(5, 40, 20).coverages();
+  for (Coverage* coverage : {&coverages.own, &coverages.finer}) {
+    std::cout << coverage->all << " numbers, " << 100 * coverage->share()
+              << " % within the stated error, median of stated by true error " << coverage->median() << "\n";
+    EXPECT_GE(coverage->share(), 0.95);
+  }
+  EXPECT_LE(coverages.own.median(), 5);
 }
 
 }  // namespace

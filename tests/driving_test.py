@@ -205,6 +205,10 @@ class Driving(unittest.TestCase):
         comparison = json.loads(run("compare", case, results, "--positions", 4, "--json").stdout)
         validator("comparison").validate(comparison)
         self.assertEqual(len(comparison["wheels"]), 2)
+        first, second = comparison["wheels"]
+        for undecided in comparison["within_errors"]:
+            for key in undecided["numbers"]:
+                self.assertLessEqual(abs(first[key] - second[key]), first["errors"][key] + second["errors"][key], key)
 
 
 class Schemas(unittest.TestCase):

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wheelwright/output/report/value_with_error.h"
+#include "wheelwright/output/report/within_errors.h"
 
 namespace wheelwright {
 namespace {
@@ -28,6 +29,10 @@ std::string change(const Value& first_value, const Value& other) {
   return fmt::format("{:+.2f} %", percents);
 }
 
+std::string without_leading_spaces(const std::string& text) {
+  return text.substr(text.find_first_not_of(' '));
+}
+
 std::string shortened(const std::string& name, std::size_t width) {
   return name.size() < width ? name : name.substr(0, width - 3) + "..";
 }
@@ -41,9 +46,18 @@ constexpr const char* within_errors = " ~";
 /// Whether the difference to the first value is smaller than the errors that are known of the two.
 bool is_within_errors(const ComparedRow& row, std::size_t wheel) {
   if (!is_known(row.values[0]) || !is_known(row.values[wheel])) return false;
-  const double errors = error_of(row, 0).value_or(0) + error_of(row, wheel).value_or(0);
-  const double difference = std::abs(**row.values[wheel] - **row.values[0]);
-  return difference > 0 && difference <= errors;
+  return differ_within_errors({**row.values[0], error_of(row, 0).value_or(0)},
+                              {**row.values[wheel], error_of(row, wheel).value_or(0)});
+}
+
+std::string text(const UndecidedNumbers& undecided, const std::vector<std::string>& wheels,
+                 const std::vector<ComparedRow>& rows) {
+  std::vector<std::string> names;
+  for (const std::size_t wheel : undecided.wheels) names.push_back(wheels[wheel]);
+  std::string text = listed(names) + " differ by less than their errors in";
+  for (const std::size_t row : undecided.rows)
+    text += (row == undecided.rows.front() ? " " : ", ") + without_leading_spaces(rows[row].label);
+  return text;
 }
 
 std::string value_text(const ComparedRow& row, std::size_t wheel) {
@@ -56,10 +70,6 @@ struct MissingNumbers {
   std::string wheels, reason;
   std::vector<std::string> labels;
 };
-
-std::string without_leading_spaces(const std::string& text) {
-  return text.substr(text.find_first_not_of(' '));
-}
 
 std::vector<MissingNumbers> missing_numbers(const std::vector<std::string>& wheels,
                                             const std::vector<ComparedRow>& rows) {
@@ -102,7 +112,9 @@ template <int dim>
 void add_row(const WheelNumber<dim>& number, const std::string& in_case,
              const std::vector<const DescribedWheel<dim>*>& wheels, std::vector<ComparedRow>& rows) {
   const double factor = number.shown().factor;
-  ComparedRow row{fmt::format("{}{} [{}]", number.label, in_case, number.shown().name), {}};
+  ComparedRow row{.label = fmt::format("{}{} [{}]", number.label, in_case, number.shown().name),
+                  .values = {},
+                  .key = number.key + in_case};
   for (const DescribedWheel<dim>* wheel : wheels) {
     const auto value = wheel ? number.value(*wheel) : std::nullopt;
     row.values.push_back(is_known(value) ? Value(**value * factor) : value);
@@ -142,6 +154,26 @@ std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<di
 template decltype(compared_rows<2>) compared_rows<2>;
 template decltype(compared_rows<3>) compared_rows<3>;
 
+std::vector<UndecidedNumbers> undecided_numbers(const std::vector<ComparedRow>& rows) {
+  std::vector<UndecidedNumbers> result;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::vector<EstimatedValue> estimated;
+    std::vector<std::size_t> wheels;
+    for (std::size_t wheel = 0; wheel < rows[k].values.size(); ++wheel)
+      if (const auto error = error_of(rows[k], wheel); error && is_known(rows[k].values[wheel])) {
+        estimated.push_back({**rows[k].values[wheel], *error});
+        wheels.push_back(wheel);
+      }
+    for (std::vector<std::size_t> group : groups_within_errors(estimated)) {
+      for (std::size_t& member : group) member = wheels[member];
+      std::ranges::sort(group);
+      const auto same = std::ranges::find(result, group, &UndecidedNumbers::wheels);
+      (same != result.end() ? *same : result.emplace_back(UndecidedNumbers{group, {}})).rows.push_back(k);
+    }
+  }
+  return result;
+}
+
 std::vector<std::string> missing_lines(const std::vector<std::string>& wheels,
                                        const std::vector<ComparedRow>& rows) {
   std::vector<std::string> lines;
@@ -178,6 +210,8 @@ std::string comparison_table(const std::vector<std::string>& wheels, const std::
     table += '\n';
   }
   if (has_small_change) table += "~ the change is smaller than the discretization errors\n";
+  for (const UndecidedNumbers& undecided : undecided_numbers(rows))
+    table += text(undecided, wheels, rows) + '\n';
   for (const std::string& line : missing_lines(wheels, rows)) table += line + '\n';
   return table;
 }

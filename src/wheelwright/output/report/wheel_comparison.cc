@@ -19,16 +19,31 @@ std::string heading(const ComparedWheel& wheel) {
   return fmt::format("{}, {}", wheel.numbers.name, wheel.numbers.which);
 }
 
+std::vector<ComparedRow> rows(const std::vector<ComparedWheel>& wheels) {
+  std::vector<const DescribedWheel<2>*> described;
+  for (const ComparedWheel& wheel : wheels) described.push_back(&wheel.numbers);
+  return compared_rows(described);
+}
+
+/// The undecided_numbers by the keys of the numbers and the names of the wheels.
+nlohmann::ordered_json within_errors_json(const std::vector<ComparedWheel>& wheels) {
+  const auto all = rows(wheels);
+  auto json = nlohmann::ordered_json::array();
+  for (const UndecidedNumbers& undecided : undecided_numbers(all)) {
+    nlohmann::ordered_json entry;
+    for (const std::size_t wheel : undecided.wheels) entry["wheels"].push_back(wheels[wheel].numbers.name);
+    for (const std::size_t row : undecided.rows) entry["numbers"].push_back(all[row].key);
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string wheels_table(const std::vector<ComparedWheel>& wheels) {
   std::vector<std::string> names;
-  std::vector<const DescribedWheel<2>*> described;
-  for (const ComparedWheel& wheel : wheels) {
-    names.push_back(wheel.numbers.name);
-    described.push_back(&wheel.numbers);
-  }
-  return comparison_table(names, compared_rows(described));
+  for (const ComparedWheel& wheel : wheels) names.push_back(wheel.numbers.name);
+  return comparison_table(names, rows(wheels));
 }
 
 std::string wheels_json(const std::vector<ComparedWheel>& wheels) {
@@ -39,7 +54,9 @@ std::string wheels_json(const std::vector<ComparedWheel>& wheels) {
     add_numbers(wheel.numbers, entry);
     json.push_back(std::move(entry));
   }
-  return nlohmann::ordered_json{{"wheels", std::move(json)}}.dump(2) + '\n';
+  return nlohmann::ordered_json{{"wheels", std::move(json)}, {"within_errors", within_errors_json(wheels)}}
+             .dump(2) +
+         '\n';
 }
 
 std::string overlay_svg(const std::vector<ComparedWheel>& wheels) {

@@ -18,6 +18,7 @@ struct ComparedWheel {
 std::string wheels_table(const std::vector<ComparedWheel>& wheels);
 
 /// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double.
+/// `within_errors` names the wheels that differ by less than their errors, with the keys of the numbers.
 std::string wheels_json(const std::vector<ComparedWheel>& wheels);
 
 /// The overlaid outlines of all wheels, to the same scale: the first filled, the others as coloured lines.
