@@ -391,6 +391,22 @@ at_least = 40e6
   EXPECT_EQ(WEXITSTATUS(status), exit_nothing_saved);
 }
 
+TEST_F(CommandLine, SweepSolvesItsFinalistsOnAFinerGridUnlessToldNot) {
+  std::ofstream(folder() / "case.toml") << small_case(2);
+  const Outcome rough =
+      wheelwright("sweep case.toml load.mass=200,300 --output sweep --without-errors", folder());
+  EXPECT_EQ(rough.code, exit_done) << rough.output;
+  EXPECT_FALSE(std::filesystem::exists(folder() / "sweep/designs/001.finer.json"));
+  EXPECT_EQ(rough.output.find("+-"), std::string::npos) << rough.output;
+  const Outcome fine = wheelwright("sweep case.toml load.mass=200,300 --output sweep", folder());
+  EXPECT_EQ(fine.code, exit_done) << fine.output;
+  for (const char* name : {"001", "002"})
+    EXPECT_TRUE(std::filesystem::exists(folder() / "sweep/designs" / fmt::format("{}.finer.json", name)));
+  EXPECT_NE(fine.output.find("+-"), std::string::npos) << fine.output;
+  // The time is told before it is spent.
+  EXPECT_LT(fine.output.find("takes about"), fine.output.find("16 x 192 cells")) << fine.output;
+}
+
 TEST_F(CommandLine, FolderInUseIsRefusedWithItsProcess) {
   const auto held = FolderLock::acquire(folder() / "designs");
   ASSERT_TRUE(held);

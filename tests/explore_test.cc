@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 #include <thread>
@@ -16,6 +17,7 @@
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/design/explore/exploration.h"
+#include "wheelwright/design/explore/finalists.h"
 #include "wheelwright/design/explore/pareto.h"
 #include "wheelwright/design/explore/sweep.h"
 #include "wheelwright/design/explore/workers.h"
@@ -23,6 +25,8 @@
 #include "wheelwright/design/starts/random.h"
 #include "wheelwright/design/starts/start.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/quantities/analysis/finer_grid.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/checkpoints/folder_lock.h"
 #include "wheelwright/run/study/study.h"
 
@@ -351,13 +355,38 @@ iterations = 10
         planned_designs(small, {.starts = 4, .seed = 3, .keeps_sectors = false, .quantities = quantities});
     if (!designs) throw std::runtime_error(designs.failure().detail);
     make_folder(place);
-    const auto rated = explore(place, *designs, quantities, settings);
+    FinalistSettings on_finer{.threads = settings.threads, .stop_requested = settings.stop_requested};
+    on_finer.begin = [this](const std::vector<RatedDesign>& solved, double) { n_solved_ += solved.size(); };
+    const auto rated =
+        with_finer_numbers(place, explore(place, *designs, quantities, settings), quantities, on_finer);
     write_designs(place, "explore", rated, quantities, "Test");
     std::map<std::string, std::string> files;
     for (const char* name : {"explore.csv", "explore.json", "explore.html", "pareto.svg"})
       files[name] = content(place / name);
+    for (const auto& entry : fs::directory_iterator(place / "designs"))
+      if (entry.path().extension() == ".json") files[entry.path().filename()] = content(entry.path());
     return files;
   }
+
+  /// The designs are run to their end in a new folder, and the finalists solved on a finer grid.
+  std::vector<RatedDesign> run_with_finalists(const std::string& name, const std::vector<Design>& designs,
+                                              const std::vector<RankedQuantity>& asked) {
+    make_folder(folder() / name);
+    return with_finer_numbers(folder() / name, run_all(folder() / name, designs, {.threads = 1}), asked, {});
+  }
+
+  /// The small wheel with one ring of holes, which a run leaves as it is.
+  Case with_holes(int count, double radius) {
+    Case c = small;
+    c.holes.rings.front().count = count;
+    c.holes.rings.front().radius = radius;
+    c.optimizer.iterations = 0;
+    c.optimizer.minimum_wall = c.optimizer.minimum_gap = 0;
+    c.output.errors = ErrorEstimates::none;
+    return c;
+  }
+
+  std::size_t n_solved_ = 0;  ///< designs that were solved on a finer grid
 };
 
 TEST_F(Exploration, IsTheSameForAnyNumberOfThreadsAndAfterAStop) {
@@ -376,6 +405,169 @@ TEST_F(Exploration, IsTheSameForAnyNumberOfThreadsAndAfterAStop) {
   for (const auto& entry : fs::directory_iterator(folder() / "one" / "designs"))
     if (entry.is_directory())
       expect_equal_results(entry.path(), folder() / "stopped" / "designs" / entry.path().filename());
+}
+
+RatedDesign full_design(const std::string& name, std::map<std::string, double> numbers,
+                        double violation = 0) {
+  RatedDesign one{{name, "start", {}, {}}, {Progression::full, "converged", 3}};
+  one.result.numbers = std::move(numbers);
+  one.result.violation = violation;
+  return one;
+}
+
+TEST(Finalists, AreTheBestOfEveryQuantityAndTheFront) {
+  const std::vector<RankedQuantity> asked{*find_quantity("stiffness"), *find_quantity("run_out")};
+  std::vector<RatedDesign> designs;
+  const auto add = [&](double stiffness, double run_out, double violation = 0) {
+    designs.push_back(full_design(fmt::format("{:03}", designs.size()),
+                                  {{"stiffness_N_per_m", stiffness}, {"run_out_m", run_out}}, violation));
+  };
+  add(9, 9);                                                      // 0: the stiffest, on the front
+  add(8, 9.5);                                                    // 1: the second, dominated
+  add(7, 9.6);                                                    // 2: the third
+  add(6, 9.7);                                                    // 3: the fourth
+  for (const double r : {4.0, 3.0, 2.0, 1.0}) add(1 + r / 2, r);  // 4 to 7: on the front
+  add(99, 0.1, 0.02);                                             // 8: violates a bound
+  add(1, 1.5);                                                    // 9: the second in run-out, dominated
+  designs.push_back(full_design("010", {}));
+  const auto chosen = finalists(designs, asked);
+  EXPECT_EQ(std::set<int>(chosen.begin(), chosen.end()), (std::set<int>{0, 1, 2, 4, 5, 6, 7, 9}));
+  EXPECT_EQ(chosen.size(), 8u);
+  EXPECT_EQ(chosen.front(), 0);
+  designs[0].result.progression = Progression::preview;
+  const auto without = finalists(designs, asked);
+  EXPECT_EQ(std::ranges::count(without, 0), 0);
+}
+
+TEST(Finalists, NumbersAreReadBackToTheLastBit) {
+  const FinerNumbers finer{.grid = "56 x 768 cells",
+                           .failure = "",
+                           .numbers = {{"run_out_m", 1.0 / 3}, {"run_out_m in kerb", 2e-300}},
+                           .errors = {{"run_out_m", 0.1}, {"run_out_m in kerb", 0}},
+                           .violation = 1.0 / 7};
+  EXPECT_EQ(to_json(finer_numbers(to_json(finer))), to_json(finer));
+  EXPECT_EQ(finer_numbers(to_json(finer)).numbers, finer.numbers);
+  EXPECT_EQ(finer_numbers(to_json(finer)).violation, finer.violation);
+}
+
+TEST(Finalists, AreRankedAndShownByTheirFinerNumbers) {
+  const std::vector<RankedQuantity> asked{*find_quantity("run_out")};
+  std::vector<RatedDesign> designs;
+  for (const double run_out : {1e-6, 2e-6, 3e-6})
+    designs.push_back(full_design(fmt::format("{:03}", designs.size()), {{"run_out_m", run_out}}));
+  designs[0].finer = FinerNumbers{.numbers = {{"run_out_m", 2.5e-6}}, .errors = {{"run_out_m", 0.4e-6}}};
+  designs[1].finer = FinerNumbers{.numbers = {{"run_out_m", 2.1e-6}}, .errors = {{"run_out_m", 0.1e-6}}};
+  auto order = ranked(designs, asked);
+  EXPECT_EQ(order[0].design.name, "001");
+  EXPECT_EQ(order[1].design.name, "000");
+  const auto undecided = undecided_designs(order, asked);
+  ASSERT_EQ(undecided.size(), 1u);
+  EXPECT_EQ(undecided[0].designs, (std::vector<std::string>{"001", "000"}));
+  EXPECT_NE(designs_table(order, asked, 5).find("2.10 +- 0.10"), std::string::npos);
+  const auto json = nlohmann::json::parse(designs_json(order, asked));
+  EXPECT_EQ(json["designs"][0]["numbers"]["run_out_m"], 2e-6);
+  EXPECT_EQ(json["designs"][0]["on_finer_grid"]["numbers"]["run_out_m"], 2.1e-6);
+  EXPECT_EQ(json["designs"][0]["on_finer_grid"]["errors"]["run_out_m"], 0.1e-6);
+  EXPECT_FALSE(json["designs"][2].contains("on_finer_grid"));
+  EXPECT_EQ(json["within_errors"][0]["designs"].size(), 2u);
+  const auto csv = split(designs_csv(order), '\n');
+  const auto names = split(csv[0], ',');
+  const auto column = std::ranges::find(names, "run_out_m on a finer grid") - names.begin();
+  EXPECT_EQ(std::stod(split(csv[1], ',').at(column)), 2.1e-6);
+  EXPECT_EQ(std::stod(split(csv[1], ',').at(column + 1)), 0.1e-6);
+  designs[1].finer->errors["run_out_m"] = designs[0].finer->errors["run_out_m"] = 0.1e-6;
+  order = ranked(designs, asked);
+  EXPECT_TRUE(undecided_designs(order, asked).empty());
+}
+
+// On their own grids the numbers of others are too good to be compared with.
+TEST(Finalists, AreNotBehindDesignsThatAreBetterOnlyOnACoarserGrid) {
+  const std::vector<RankedQuantity> asked{*find_quantity("run_out")};
+  std::vector<RatedDesign> designs;
+  for (const double run_out : {1e-6, 2e-6, 3e-6})
+    designs.push_back(full_design(fmt::format("{:03}", designs.size()), {{"run_out_m", run_out}}));
+  designs[0].finer = FinerNumbers{.numbers = {{"run_out_m", 5e-6}}, .errors = {{"run_out_m", 1e-6}}};
+  designs[2].finer = FinerNumbers{.numbers = {{"run_out_m", 4e-6}}, .errors = {{"run_out_m", 1e-6}}};
+  designs.push_back(full_design("003", {{"run_out_m", 0.1e-6}}, 0.02));  // violates a bound
+  const auto order = ranked(designs, asked);
+  std::vector<std::string> names;
+  for (const RankedDesign& one : order) names.push_back(one.design.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"002", "000", "001", "003"}));
+  EXPECT_EQ(order[0].front, 1);
+  EXPECT_EQ(order[2].front, 2);
+  EXPECT_EQ(finalists(designs, asked).front(), 1);  // it is worth a look
+}
+
+/// The stiffness of the initial shape on the grid of the results, or on the finer one [N/m of width].
+double initial_stiffness(const Case& c, bool is_on_finer) {
+  const auto own = rolling_model<2>(with_levels_of_results(c));
+  const auto model = is_on_finer ? on_finer_grid(own) : own;
+  const auto solver = make_solver(model);
+  if (!solver) throw std::runtime_error(solver.failure().detail);
+  const LevelSet<2> shape = on_grid(initial_shape<2>(c), model.grid);
+  const auto states = (*solver)->states(shape, (*solver)->distinct_positions(shape), Interrupt());
+  if (!states) throw std::runtime_error(states.failure().detail);
+  return shape_summary(**solver, shape, **states).stiffness;
+}
+
+// Walls of 1.2 cells look stiffer than they are, by more than thick ones. The other wheel's holes are widened
+// until it looks softer by half of that.
+TEST_F(Exploration, FinalistsAreInTheOrderOfTheFinerGridWhereTheirOwnLies) {
+  const Case thin = with_holes(24, 0.0273);
+  const double looks = initial_stiffness(thin, false), is = initial_stiffness(thin, true);
+  double narrow = 0.03, wide = 0.06;
+  const auto behind = [&](double radius) {  // half of the difference of both errors
+    const Case c = with_holes(8, radius);
+    const double of_thick = initial_stiffness(c, false) - initial_stiffness(c, true);
+    return looks - initial_stiffness(c, false) - 0.5 * ((looks - is) - of_thick);
+  };
+  ASSERT_LT(behind(narrow), 0);
+  ASSERT_GT(behind(wide), 0);
+  for (int k = 0; k < 12; ++k) {
+    const double middle = 0.5 * (narrow + wide);
+    (behind(middle) < 0 ? narrow : wide) = middle;
+  }
+  const Case thick = with_holes(8, narrow);
+  ASSERT_GT(looks, initial_stiffness(thick, false));
+  ASSERT_LT(is, initial_stiffness(thick, true));
+  const std::vector<RankedQuantity> asked{*find_quantity("stiffness")};
+  const std::vector<Design> designs{{"001", "thin walls", thin, {}}, {"002", "thick walls", thick, {}}};
+  auto rated = run_with_finalists("all", designs, asked);
+  const auto by_finer = ranked(rated, asked);
+  EXPECT_EQ(by_finer[0].design.name, "002");
+  EXPECT_EQ(by_finer[0].front, 1);
+  EXPECT_EQ(by_finer[1].front, 2);
+  EXPECT_NEAR(by_finer[1].value("stiffness_N_per_m"), is * thin.wheel.width, 1e-6 * is * thin.wheel.width);
+  EXPECT_EQ(undecided_designs(by_finer, asked).size(), 1u);
+  for (RatedDesign& one : rated) one.finer.reset();
+  const auto by_own = ranked(rated, asked);
+  EXPECT_EQ(by_own[0].design.name, "001");
+  EXPECT_NEAR(by_own[0].value("stiffness_N_per_m"), looks * thin.wheel.width,
+              1e-6 * looks * thin.wheel.width);
+}
+
+// The bound is just kept on the grid of the run.
+TEST_F(Exploration, FinalistsThatViolateABoundOnTheFinerGridAreMarked) {
+  Case c = with_holes(24, 0.0273);
+  const double own = initial_stiffness(c, false), finer = initial_stiffness(c, true);
+  ASSERT_GT(own - finer, 2e-3 * own);
+  c.constraints = {{.quantity = built_in("stiffness"), .at_least = own}};
+  Case loose = c;
+  loose.constraints[0].at_least = 0.9 * finer;
+  const std::vector<RankedQuantity> asked{*find_quantity("stiffness")};
+  const auto order =
+      ranked(run_with_finalists("all", {{"001", "tight", c, {}}, {"002", "loose", loose, {}}}, asked), asked);
+  ASSERT_EQ(order.size(), 2u);
+  for (const RankedDesign& one : order) {
+    EXPECT_EQ(one.result.violation, 0);
+    EXPECT_EQ(one.front, 1);  // as far as its own grid tells
+    ASSERT_TRUE(one.finer);
+    const bool is_tight = one.design.name == "001";
+    EXPECT_NEAR(one.finer->violation, is_tight ? (own - finer) / own : 0, 1e-6);
+    const std::string table = designs_table({one}, asked, 1), page = designs_page({one}, asked, "Test");
+    EXPECT_EQ(table.find("violates a bound") != std::string::npos, is_tight) << table;
+    EXPECT_EQ(page.find("violates a bound") != std::string::npos, is_tight);
+  }
 }
 
 TEST_F(Exploration, OfMinimumMassRanksFeasibleDesignsFirst) {
@@ -459,11 +651,14 @@ TEST_F(Exploration, DesignWithFolderInUseHasNoResult) {
 
 TEST_F(Exploration, KnownResultsAreReused) {
   explored(folder() / "one", {.threads = 1});
+  EXPECT_GE(n_solved_, 1u);
+  n_solved_ = 0;
   int n_runs = 0;
   RunSettings settings{.threads = 1};
   settings.may_begin = [&] { return ++n_runs, true; };
   explored(folder() / "one", settings);
   EXPECT_EQ(n_runs, 0);
+  EXPECT_EQ(n_solved_, 0u);
 }
 
 // A preview may beat the designs that were optimized to the end; the walls and gaps of their ends it does not

@@ -9,7 +9,8 @@ const { folder } = require("./scripts.js");
 // The files of each asset, in the order of CMake.
 const cmake = fs.readFileSync(path.join(__dirname, "../../src/wheelwright/CMakeLists.txt"), "utf8");
 const assets = Object.fromEntries([...cmake.matchAll(/^ +(\w+_js)=([\w.|]+?\.js)\)?$/gm)].map(([, name, files]) => [name, files.split("|")]));
-const pages = { report: ["parts_js", "report_js"], watch: ["parts_js", "stage_js", "watch_js"], designs: ["designs_js"] };
+const pages = { report: ["formats_js", "parts_js", "report_js"], watch: ["formats_js", "parts_js", "stage_js", "watch_js"],
+  designs: ["formats_js", "designs_js"] };
 const filesOf = (page) => pages[page].flatMap((asset) => assets[asset]);
 const source = (file) => fs.readFileSync(path.join(folder, file), "utf8");
 const constantOf = (file) => source(file).match(/^const (\w+) = \(\(\) => \{$/m)?.[1];

@@ -1,7 +1,7 @@
 "use strict";
 const test = require("node:test");
 const assert = require("node:assert/strict");
-const { plotAxes } = require("./scripts.js").load("plot_axes");
+const { plotAxes } = require("./scripts.js").load("formats", "plot_axes");
 
 test("ticks are multiples of 1, 2 or 5 times a power of ten, within the range", () => {
   for (const [low, high] of [[0, 1], [-3.7, 12.1], [1e-7, 9e-7], [98.9, 99.1], [-5e8, -1e8]]) {
@@ -44,5 +44,12 @@ test("equal values have an axis too", () => {
 test("a value is shown in its unit, and a missing one is not", () => {
   assert.equal(Number(plotAxes.shown(0.00123456789, { factor: 1e3 })), 1.2346);
   assert.equal(Number(plotAxes.shown(0, { factor: 1e3 })), 0);
+  assert.equal(plotAxes.shown(0.0123456, { factor: 1e3 }, 4e-5), "12.35 \u00b1 0.04");
   for (const missing of [null, undefined]) assert.equal(plotAxes.shown(missing, { factor: 1 }), "");
+});
+
+test("the ends of a design's bar are its value less and with its error", () => {
+  const design = { values: { run_out_m: 3e-6, mass_kg: 2 }, errors: { run_out_m: 1e-6 } };
+  assert.deepEqual(plotAxes.ends(design, { key: "run_out_m", factor: 1e6 }).map((end) => Math.round(end)), [2, 4]);
+  assert.deepEqual(plotAxes.ends(design, { key: "mass_kg", factor: 1 }), [2, 2]);
 });

@@ -4,8 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <cmath>
 #include <thread>
 
 #include "wheelwright/app/exit_code.h"
@@ -15,8 +14,11 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/file_content.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/files/written_files.h"
+#include "wheelwright/output/report/value_with_error.h"
+#include "wheelwright/run/results/finer_wheel.h"
 #include "wheelwright/run/results/run_title.h"
 #include "wheelwright/run/results/stop_text.h"
 #include "wheelwright/run/study/problem_size.h"
@@ -47,11 +49,6 @@ std::string check_quantities(const std::string& text) {
   return "";
 }
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// The ranked quantity that corresponds to the minimized one.
 std::string_view word_of_minimized(const Quantity& minimized) {
   if (minimized == built_in("volume_fraction")) return "mass";
@@ -74,6 +71,8 @@ void DesignOptions::declare(Options& options) {
   constexpr int max_seconds = 10'000'000;
   options.number("--seconds", seconds, {1, max_seconds},
                  "Start no further design after this time; default: no limit");
+  options.flag("--without-errors", without_errors,
+               "Do not solve the finalists on a finer grid, whose numbers rank them, with errors");
   add_threads(options, threads);
 }
 
@@ -121,7 +120,7 @@ bool DesignSession::may_begin() {
               folder_.string(), to_string(lock.failure()));
     return false;
   }
-  if (is_there(folder_ / settings_file) && content(folder_ / settings_file) != settings_) {
+  if (is_there(folder_ / settings_file) && file_content(folder_ / settings_file) != settings_) {
     print_err(
         "{}: contains designs of another case or of other options, according to its {}; choose another "
         "folder with "
@@ -169,6 +168,34 @@ RunSettings DesignSession::run_settings(std::size_t n_designs) const {
   return settings;
 }
 
+FinalistSettings DesignSession::finalist_settings() const {
+  FinalistSettings settings;
+  settings.threads = options_.n_threads();
+  if (const auto available = available_memory())
+    settings.threads =
+        std::clamp(static_cast<int>(*available / memory_on_finer_grid<2>(case_)), 1, settings.threads);
+  settings.stop_requested = [this] { return signals_.stop().has_value(); };
+  settings.begin = [](const std::vector<RatedDesign>& designs, double seconds) {
+    print_err("solving {} on a finer grid, which takes about {:.0f} s\n",
+              designs.size() == 1 ? "1 finalist" : fmt::format("{} finalists", designs.size()),
+              std::ceil(seconds));
+  };
+  settings.done = [this](const RatedDesign& finalist) { show_finalist(finalist); };
+  return settings;
+}
+
+void DesignSession::show_finalist(const RatedDesign& finalist) const {
+  std::string numbers;
+  for (const RankedQuantity& quantity : quantities_)
+    if (const auto error = finalist.error(quantity.key))
+      numbers += fmt::format(", {} {} {}", quantity.word,
+                             text_with_error(finalist.value(quantity.key) * quantity.shown.factor,
+                                             *error * quantity.shown.factor),
+                             quantity.shown.name);
+  print_err("{} {}: {}{}\n", finalist.design.name, finalist.design.text,
+            finalist.finer->failure.empty() ? finalist.finer->grid : finalist.finer->failure, numbers);
+}
+
 void DesignSession::show(const Design& design, const DesignResult& result) const {
   std::string numbers;
   for (const RankedQuantity& quantity : quantities_)
@@ -181,23 +208,37 @@ void DesignSession::show(const Design& design, const DesignResult& result) const
 
 int DesignSession::run(std::size_t n_designs, const Work& work) const {
   const ThreadLimit one_thread_each(1);
-  const std::vector<RatedDesign> designs = work(run_settings(n_designs));
-  if (const auto signal = signals_.stop()) {
-    print_err("stopped and saved; to continue, give the same command again\n");
-    return designs.empty() ? exit_nothing_saved : 128 + *signal;
-  }
+  std::vector<RatedDesign> designs = work(run_settings(n_designs));
+  if (const auto signal = signals_.stop()) return end_of_stopped(!designs.empty(), *signal);
+  if (!options_.without_errors && case_.output.errors == ErrorEstimates::estimated)
+    designs = with_finer_numbers(folder_, std::move(designs), quantities_, finalist_settings());
+  if (const auto signal = signals_.stop()) return end_of_stopped(!designs.empty(), *signal);
   const auto order = write_designs(folder_, name_, designs, quantities_, run_title(case_));
+  print_results(order);
+  if (std::ranges::any_of(order, [](const RankedDesign& one) { return one.front > 0; })) return exit_done;
+  const bool any_result =
+      std::ranges::any_of(order, [](const RankedDesign& one) { return !one.result.numbers.empty(); });
+  return any_result ? exit_infeasible : exit_no_solution;
+}
+
+int DesignSession::end_of_stopped(bool has_designs, int signal) const {
+  print_err("stopped and saved; to continue, give the same command again\n");
+  return has_designs ? 128 + signal : exit_nothing_saved;
+}
+
+void DesignSession::print_results(const std::vector<RankedDesign>& order) const {
   print_lines(stdout, designs_table(order, quantities_, printed_rows));
   print("\n{} designs, *: no other design is better in all quantities\n", order.size());
+  const auto n_finer = std::ranges::count_if(
+      order, [](const RankedDesign& one) { return one.finer && one.finer->failure.empty(); });
+  if (n_finer > 0) print("numbers with an error (+-) are those of a finer grid, of {} finalists\n", n_finer);
+  for (const UndecidedDesigns& undecided : undecided_designs(order, quantities_))
+    print("{}\n", text(undecided));
   for (const auto& [file, meaning] : {std::pair{name_ + ".html", "all designs, for a browser"},
                                       {std::string(pareto_picture), "the picture"},
                                       {name_ + ".csv", "the numbers, also as .json"},
                                       {std::string(folder_of_designs), "one run per design"}})
     print("  {:<36} {}\n", (folder_ / file).string(), meaning);
-  if (std::ranges::any_of(order, [](const RankedDesign& one) { return one.front > 0; })) return exit_done;
-  const bool any_result =
-      std::ranges::any_of(order, [](const RankedDesign& one) { return !one.result.numbers.empty(); });
-  return any_result ? exit_infeasible : exit_no_solution;
 }
 
 bool is_plane_or_report(const std::string& command, const Case& c, const std::string& file) {

@@ -11,6 +11,7 @@
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/design/explore/exploration.h"
+#include "wheelwright/design/explore/finalists.h"
 #include "wheelwright/run/checkpoints/folder_lock.h"
 
 namespace wheelwright {
@@ -19,8 +20,9 @@ namespace wheelwright {
 struct DesignOptions {
   std::optional<std::string> output, quantities;
   std::optional<int> threads, seconds;
+  bool without_errors = false;
 
-  /// --output, --for, --seconds, --threads
+  /// --output, --for, --seconds, --without-errors, --threads
   void declare(Options& options);
 
   /// The quantities named by --for. Default: what the case minimizes, if it is one of them, or else
@@ -47,14 +49,18 @@ class DesignSession {
   /// failed attempts if generation takes long or yields fewer starts.
   DrawingSettings drawing_settings(int n_starts) const;
 
-  /// Runs the designs, writes their page and tables, and prints the best. Returns an ExitCode. Throws
-  /// OutputError.
+  /// Runs the designs, solves the finalists on a finer grid, unless no errors are wanted, writes page and
+  /// tables, and prints the best. Returns an ExitCode. Throws OutputError.
   int run(std::size_t n_designs, const Work& work) const;
 
  private:
   bool is_time_over() const;
   RunSettings run_settings(std::size_t n_designs) const;
+  FinalistSettings finalist_settings() const;
   void show(const Design& design, const DesignResult& result) const;
+  void show_finalist(const RatedDesign& finalist) const;
+  int end_of_stopped(bool has_designs, int signal) const;
+  void print_results(const std::vector<RankedDesign>& order) const;
 
   std::string name_;
   std::filesystem::path folder_;

@@ -22,18 +22,45 @@ std::vector<std::string> other_load_cases(const Case& c) {
   return names;
 }
 
-RatedPoint rated_point(const DesignResult& result, const std::vector<RankedQuantity>& quantities) {
-  RatedPoint point{{}, result.violation};
-  for (const RankedQuantity& quantity : quantities)
-    point.costs.push_back((quantity.is_larger_better ? -1 : 1) * result.value(quantity));
-  return point;
+double RatedDesign::value(const std::string& key) const {
+  if (finer)
+    if (const auto found = finer->numbers.find(key); found != finer->numbers.end()) return found->second;
+  return result.value(key);
 }
+
+std::optional<double> RatedDesign::error(const std::string& key) const {
+  if (!finer) return {};
+  const auto found = finer->errors.find(key);
+  return found == finer->errors.end() ? std::nullopt : std::optional(found->second);
+}
+
+namespace {
+
+/// The points of designs whose value of a key is `value(design, key)`.
+template <class Value>
+std::vector<RatedPoint> points_of(const std::vector<RatedDesign>& designs,
+                                  const std::vector<RankedQuantity>& quantities, const Value& value) {
+  std::vector<RatedPoint> all;
+  for (const RatedDesign& one : designs) {
+    RatedPoint& point = all.emplace_back(RatedPoint{{}, one.result.violation});
+    for (const RankedQuantity& quantity : quantities)
+      point.costs.push_back((quantity.is_larger_better ? -1 : 1) * value(one, quantity.key));
+  }
+  return all;
+}
+
+}  // namespace
 
 std::vector<RatedPoint> rated_points(const std::vector<RatedDesign>& designs,
                                      const std::vector<RankedQuantity>& quantities) {
-  std::vector<RatedPoint> all;
-  for (const RatedDesign& one : designs) all.push_back(rated_point(one.result, quantities));
-  return all;
+  return points_of(designs, quantities,
+                   [](const RatedDesign& one, const std::string& key) { return one.result.value(key); });
+}
+
+std::vector<RatedPoint> finest_points(const std::vector<RatedDesign>& designs,
+                                      const std::vector<RankedQuantity>& quantities) {
+  return points_of(designs, quantities,
+                   [](const RatedDesign& one, const std::string& key) { return one.value(key); });
 }
 
 std::string to_json(const DesignResult& result) {
@@ -53,6 +80,23 @@ DesignResult design_result(const std::string& text) {
   result.violation = json.at("bound_violation");
   for (const auto& [key, value] : json.at("numbers").items()) result.numbers[key] = value.get<double>();
   return result;
+}
+
+std::string to_json(const FinerNumbers& finer) {
+  nlohmann::ordered_json json{
+      {"grid", finer.grid}, {"failure", finer.failure}, {"bound_violation", finer.violation}};
+  json["numbers"] = finer.numbers;
+  json["errors"] = finer.errors;
+  return json.dump(2) + '\n';
+}
+
+FinerNumbers finer_numbers(const std::string& text) {
+  const auto json = nlohmann::json::parse(text);
+  return {.grid = json.at("grid"),
+          .failure = json.at("failure"),
+          .numbers = json.at("numbers").get<std::map<std::string, double>>(),
+          .errors = json.at("errors").get<std::map<std::string, double>>(),
+          .violation = json.at("bound_violation")};
 }
 
 }  // namespace wheelwright

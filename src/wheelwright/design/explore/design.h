@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,19 +47,40 @@ std::string key_in_case(std::string_view key, std::string_view load_case);
 /// The names of a case's load cases except the first, whose keys have no suffix.
 std::vector<std::string> other_load_cases(const Case& c);
 
+/// The numbers of a design's last shape on a finer grid. Contains no times either.
+struct FinerNumbers {
+  std::string grid = {};     ///< e.g. "56 x 768 cells"
+  std::string failure = {};  ///< why there are no numbers; empty: there are
+  /// By the keys of DesignResult::numbers, of which some are missing: those of the outline.
+  std::map<std::string, double> numbers = {};
+  std::map<std::string, double> errors = {};  ///< estimates of their discretization errors
+  double violation = 0;                       ///< of a bound on this grid, as DesignResult::violation
+};
+
 /// A design with its result.
 struct RatedDesign {
   Design design;
   DesignResult result;
+  std::optional<FinerNumbers> finer = {};  ///< of finalists (design/explore/finalists.h)
+
+  /// On the finer grid if it is known there, in SI units; NaN if it is not known at all.
+  double value(const std::string& key) const;
+  /// The estimate of its error; nothing if it is not known.
+  std::optional<double> error(const std::string& key) const;
 };
 
-/// What designs are ranked by: costs to minimize, in the order of the quantities.
-RatedPoint rated_point(const DesignResult& result, const std::vector<RankedQuantity>& quantities);
+/// What designs are ranked by: costs to minimize, in the order of the quantities, on their own grids.
 std::vector<RatedPoint> rated_points(const std::vector<RatedDesign>& designs,
                                      const std::vector<RankedQuantity>& quantities);
+
+/// The same on the finer grid for those designs that have numbers there.
+std::vector<RatedPoint> finest_points(const std::vector<RatedDesign>& designs,
+                                      const std::vector<RankedQuantity>& quantities);
 
 /// Conversion to and from its own file; throws std::exception if the text is invalid.
 std::string to_json(const DesignResult& result);
 DesignResult design_result(const std::string& json);
+std::string to_json(const FinerNumbers& finer);
+FinerNumbers finer_numbers(const std::string& json);
 
 }  // namespace wheelwright

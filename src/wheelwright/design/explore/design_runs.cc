@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <variant>
 
 #include "wheelwright/design/explore/workers.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/file_content.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/run/checkpoints/own_drawings.h"
@@ -24,11 +24,6 @@ namespace fs = std::filesystem;
 /// Shapes of a preview whose run does not start on a coarser grid.
 constexpr int shapes_of_preview = 15;
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 fs::path result_file(const fs::path& designs, const Design& design, Progression progression) {
   return designs /
          fmt::format("{}.{}.json", design.name, progression == Progression::full ? "full" : "preview");
@@ -37,7 +32,7 @@ fs::path result_file(const fs::path& designs, const Design& design, Progression 
 std::optional<DesignResult> known_result(const fs::path& file) {
   if (!is_there(file)) return {};
   try {
-    return design_result(content(file));
+    return design_result(file_content(file));
   } catch (const nlohmann::json::exception&) {
     return {};  // computed again
   }
@@ -101,7 +96,7 @@ double largest_violation(const nlohmann::json& bounds) {
 /// Reads the numbers of the last shape that a run wrote to its folder.
 void read_summary(const fs::path& folder, const Quantities& quantities, DesignResult& result) {
   if (!is_there(folder / "summary.json")) return;
-  const auto summary = nlohmann::json::parse(content(folder / "summary.json"));
+  const auto summary = nlohmann::json::parse(file_content(folder / "summary.json"));
   if (!summary.contains("after")) return;
   if (summary.contains("bounds")) result.violation = largest_violation(summary["bounds"]);
   const auto& after = summary.at("after");

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/design/explore/pareto.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/file_content.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/run/study/study.h"
@@ -37,7 +36,7 @@ Expected<double> weight_of_evenness(Case c) {
 }
 
 /// The case as a design runs it: without the many output files that nobody opens, and without the errors of
-/// its numbers, which would cost each preview three shapes.
+/// its numbers, which finalists have (design/explore/finalists.h).
 Case as_design(Case c) {
   c.output.vtu_every = c.output.pictures_every = 0;
   c.output.checkpoint_every = 50;
@@ -51,9 +50,7 @@ std::string design_name(std::size_t i) { return fmt::format("{:03}", i + 1); }
 /// The wheel in a run's folder, as an SVG path.
 std::string outline(const fs::path& file) {
   constexpr double size = 100;
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  const auto psi = parse_level_set_file<2>(bytes);
+  const auto psi = parse_level_set_file<2>(file_content(file));
   if (!psi) return {};
   const PolarGrid<2>& grid = psi->lattice.grid();
   return material_path(grid, material_contours(*psi, 1), 0.5 * size / grid.outer_radius, 1,

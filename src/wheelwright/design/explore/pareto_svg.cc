@@ -22,6 +22,7 @@ text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;font-
 .number{font-size:11px;font-weight:600}
 .grid{stroke:#d8dee4;stroke-width:1}.frame{fill:none;stroke:#57606a;stroke-width:1}
 .design{fill:#8c959f;stroke:#8c959f}.best{fill:#0a5ca8;stroke:#0a5ca8}.preview{fill:#ffffff}
+.error{stroke:#0a5ca8;stroke-width:1}
 .wheel{fill:#9db8d6;fill-rule:evenodd}
 </style>
 )";
@@ -34,14 +35,18 @@ struct Axis {
   Axis(const RankedQuantity& shown, const std::vector<RankedDesign>& designs, double first, double last)
       : quantity(shown), from(first), to(last) {
     for (const RankedDesign& one : designs)
-      if (const double v = value(one); std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+      if (const double v = value(one), e = error(one); std::isfinite(v))
+        low = std::min(low, v - e), high = std::max(high, v + e);
     if (low > high) low = 0, high = 1;
     const double size = std::max(std::abs(low), std::abs(high));
     const double more = high - low > 1e-6 * size ? 0.06 * (high - low) : std::max(0.01 * size, 1e-12);
     low -= more;
     high += more;
   }
-  double value(const RankedDesign& one) const { return one.result.value(quantity) * quantity.shown.factor; }
+  double value(const RankedDesign& one) const { return one.value(quantity.key) * quantity.shown.factor; }
+  double error(const RankedDesign& one) const {
+    return one.error(quantity.key).value_or(0) * quantity.shown.factor;
+  }
   double pixel(double v) const { return from + (v - low) / (high - low) * (to - from); }
 };
 
@@ -66,11 +71,23 @@ void draw_axes(const Axis& x, const Axis& y, std::string& svg) {
                      escape_xml(y.quantity.shown.name));
 }
 
+/// A bar along each axis from the value less its error to the value and its error.
+void draw_errors(const Axis& x, const Axis& y, const RankedDesign& one, std::string& svg) {
+  const double vx = x.value(one), vy = y.value(one), ex = x.error(one), ey = y.error(one);
+  const auto bar = [&](double x1, double y1, double x2, double y2) {
+    svg += fmt::format("<line class=\"error\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n",
+                       x.pixel(x1), y.pixel(y1), x.pixel(x2), y.pixel(y2));
+  };
+  if (ex > 0) bar(vx - ex, vy, vx + ex, vy);
+  if (ey > 0) bar(vx, vy - ey, vx, vy + ey);
+}
+
 void draw_points(const Axis& x, const Axis& y, const std::vector<RankedDesign>& designs, std::string& svg) {
   for (int i = static_cast<int>(designs.size()) - 1; i >= 0; --i) {  // the best ones on top
     const RankedDesign& one = designs[i];
     if (!std::isfinite(x.value(one)) || !std::isfinite(y.value(one))) continue;
     const double px = x.pixel(x.value(one)), py = y.pixel(y.value(one));
+    draw_errors(x, y, one, svg);
     const bool is_best = one.front == 1;
     svg += fmt::format(
         "<circle class=\"design{}{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}</title></circle>\n",

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "wheelwright/design/explore/design_runs.h"
 #include "wheelwright/design/explore/pareto.h"
@@ -15,6 +16,8 @@
 #include "wheelwright/output/page/html_template.h"
 #include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/output/report/svg.h"
+#include "wheelwright/output/report/value_with_error.h"
+#include "wheelwright/output/report/within_errors.h"
 #include "wheelwright/run/results/stop_text.h"
 
 namespace wheelwright {
@@ -87,22 +90,114 @@ double parameter(const Design& design, const std::string& name) {
   return found == design.parameters.end() ? std::nan("") : found->second;
 }
 
-/// How a design's run ended, and by how much it violates its bounds.
-std::string status(const DesignResult& result) {
-  if (result.violation == 0) return text_of_stop(result.status);
-  return fmt::format("{}, violates a bound by {:.2g} %", text_of_stop(result.status), 100 * result.violation);
+std::string violation_text(double violation) {
+  return fmt::format("violates a bound by {:.2g} %", 100 * violation);
+}
+
+/// What must be known of a design beside its numbers; empty without such.
+std::string mark(const RatedDesign& one) {
+  if (one.result.violation > 0) return violation_text(one.result.violation);
+  if (!one.finer) return "";
+  if (!one.finer->failure.empty()) return "not solved on a finer grid: " + one.finer->failure;
+  return one.finer->violation > 0 ? violation_text(one.finer->violation) + " on a finer grid" : "";
+}
+
+/// How a design's run ended, and its mark.
+std::string status(const RatedDesign& one) {
+  const std::string marked = mark(one);
+  return text_of_stop(one.result.status) + (marked.empty() ? "" : ", " + marked);
+}
+
+/// For the column of starts.
+std::string start_text(const RatedDesign& one) {
+  if (one.result.violation > 0) return fmt::format("{} ({})", one.design.text, status(one));
+  const std::string marked = mark(one);
+  return marked.empty() ? one.design.text : fmt::format("{} ({})", one.design.text, marked);
+}
+
+/// The keys of those numbers that some design has on a finer grid.
+std::vector<std::string> finer_keys(const std::vector<RankedDesign>& designs) {
+  std::vector<std::string> keys = number_keys(designs);
+  std::erase_if(keys, [&](const std::string& key) {
+    return std::ranges::none_of(designs, [&](const RankedDesign& one) { return one.error(key).has_value(); });
+  });
+  return keys;
+}
+
+Json finer_json(const FinerNumbers& finer, const std::vector<std::string>& keys) {
+  if (!finer.failure.empty()) return {{"missing", finer.failure}};
+  Json json{{"grid", finer.grid},
+            {"bound_violation", finer.violation},
+            {"numbers", Json::object()},
+            {"errors", Json::object()}};
+  for (const std::string& key : keys)
+    if (finer.numbers.contains(key)) {
+      json["numbers"][key] = finer.numbers.at(key);
+      json["errors"][key] = finer.errors.at(key);
+    }
+  return json;
+}
+
+/// The undecided_designs, each with its quantity.
+Json undecided_json(const std::vector<RankedDesign>& designs, const std::vector<RankedQuantity>& quantities) {
+  Json json = Json::array();
+  for (const UndecidedDesigns& undecided : undecided_designs(designs, quantities))
+    json.push_back({{"quantity", undecided.quantity}, {"designs", undecided.designs}});
+  return json;
+}
+
+bool is_on_finer_grid(const RatedDesign& one) { return one.finer && one.finer->failure.empty(); }
+
+/// On their own grids, except for those on a finer one, which are compared with each other.
+std::vector<int> fronts_of(const std::vector<RatedDesign>& designs,
+                           const std::vector<RankedQuantity>& quantities) {
+  std::vector<int> front = fronts(rated_points(designs, quantities));
+  const auto finest = finest_points(designs, quantities);
+  std::vector<RatedPoint> points;
+  for (std::size_t i = 0; i < designs.size(); ++i)
+    if (is_on_finer_grid(designs[i])) points.push_back(finest[i]);
+  const std::vector<int> on_finer = fronts(points);
+  for (std::size_t i = 0, k = 0; i < designs.size(); ++i)
+    if (is_on_finer_grid(designs[i])) front[i] = on_finer[k++];
+  return front;
 }
 
 }  // namespace
 
+std::vector<UndecidedDesigns> undecided_designs(const std::vector<RankedDesign>& designs,
+                                                const std::vector<RankedQuantity>& quantities) {
+  std::vector<UndecidedDesigns> result;
+  for (const RankedQuantity& quantity : quantities) {
+    std::vector<EstimatedValue> values;
+    std::vector<std::string> names;
+    for (const RankedDesign& one : designs)
+      if (const auto error = one.error(quantity.key)) {
+        values.push_back({(quantity.is_larger_better ? -1 : 1) * one.value(quantity.key), *error});
+        names.push_back(one.design.name);
+      }
+    for (const auto& group : groups_within_errors(values)) {
+      result.push_back({quantity.word, {}});
+      for (const std::size_t member : group) result.back().designs.push_back(names[member]);
+    }
+  }
+  return result;
+}
+
+std::string text(const UndecidedDesigns& undecided) {
+  return fmt::format("{}: {} differ by less than their errors", undecided.quantity,
+                     listed(undecided.designs));
+}
+
 std::vector<RankedDesign> ranked(const std::vector<RatedDesign>& designs,
                                  const std::vector<RankedQuantity>& quantities) {
-  const auto all = rated_points(designs, quantities);
-  const auto front = fronts(all);
+  const auto finest = finest_points(designs, quantities);
+  const auto front = fronts_of(designs, quantities);
   std::vector<int> order(designs.size());
   std::iota(order.begin(), order.end(), 0);
   const auto place = [&](int i) {
-    return std::pair(front[i] == 0 ? HUGE_VAL : front[i], front[i] == 0 ? 0 : all[i].costs.front());
+    const bool has_result = front[i] > 0;
+    return std::tuple(!has_result, designs[i].result.violation > 0, front[i], !is_on_finer_grid(designs[i]),
+                      has_result ? finest[i].costs.front() : 0);
   };
   std::ranges::stable_sort(order, {}, place);
   std::vector<RankedDesign> result;
@@ -118,6 +213,11 @@ std::string designs_csv(const std::vector<RankedDesign>& designs) {
   header.insert(header.end(), names.begin(), names.end());
   const auto keys = number_keys(designs);
   header.insert(header.end(), keys.begin(), keys.end());
+  const auto keys_on_finer = finer_keys(designs);
+  for (const std::string& key : keys_on_finer) {
+    header.push_back(key + " on a finer grid");
+    header.push_back(key + " error");
+  }
   std::string text = csv_line(header);
   int rank = 0;
   for (const RankedDesign& one : designs) {
@@ -132,6 +232,11 @@ std::string designs_csv(const std::vector<RankedDesign>& designs) {
                                    std::to_string(one.design.source.wheel.sectors)};
     for (const std::string& name : names) cells.push_back(csv_number(parameter(one.design, name)));
     for (const std::string& key : keys) cells.push_back(csv_number(one.result.value(key)));
+    for (const std::string& key : keys_on_finer) {
+      const auto error = one.error(key);
+      cells.push_back(error ? csv_number(one.value(key)) : "");
+      cells.push_back(error ? csv_number(*error) : "");
+    }
     text += csv_line(cells);
   }
   return text;
@@ -139,7 +244,10 @@ std::string designs_csv(const std::vector<RankedDesign>& designs) {
 
 std::string designs_json(const std::vector<RankedDesign>& designs,
                          const std::vector<RankedQuantity>& quantities) {
-  Json json{{"quantities", Json::array()}, {"designs", Json::array()}};
+  Json json{{"quantities", Json::array()},
+            {"within_errors", undecided_json(designs, quantities)},
+            {"designs", Json::array()}};
+  const auto keys = number_keys(designs);
   for (const RankedQuantity& quantity : quantities)
     json["quantities"].push_back({{"name", quantity.word},
                                   {"key", quantity.key},
@@ -157,8 +265,8 @@ std::string designs_json(const std::vector<RankedDesign>& designs,
                {"shapes", one.result.shapes},
                {"numbers", Json::object()}};
     for (const auto& [name, value] : one.design.parameters) entry["parameters"][name] = value;
-    for (const std::string& key : number_keys(designs))
-      entry["numbers"][key] = number_json(one.result.value(key));
+    for (const std::string& key : keys) entry["numbers"][key] = number_json(one.result.value(key));
+    if (one.finer) entry["on_finer_grid"] = finer_json(*one.finer, keys);
     json["designs"].push_back(std::move(entry));
   }
   return json.dump(2) + '\n';
@@ -180,12 +288,13 @@ std::string designs_table(const std::vector<RankedDesign>& designs,
   for (int i = 0; i < std::min(max_rows, static_cast<int>(designs.size())); ++i) {
     const RankedDesign& one = designs[i];
     std::vector<std::string> row{fmt::format("{}{}", i + 1, one.front == 1 ? "*" : ""), one.design.name,
-                                 one.result.violation == 0
-                                     ? one.design.text
-                                     : fmt::format("{} ({})", one.design.text, status(one.result))};
+                                 start_text(one)};
     for (const auto& [heading, key, factor] : shown) {
-      const double value = one.result.value(key);
-      row.push_back(std::isnan(value) ? one.result.status : fmt::format("{:.5g}", value * factor));
+      const double value = one.value(key);
+      const auto error = one.error(key);
+      row.push_back(std::isnan(value) ? one.result.status
+                    : error           ? text_with_error(value * factor, *error * factor)
+                                      : fmt::format("{:.5g}", value * factor));
     }
     rows.push_back(std::move(row));
   }
@@ -204,7 +313,12 @@ std::string designs_table(const std::vector<RankedDesign>& designs,
 
 std::string designs_page(const std::vector<RankedDesign>& designs,
                          const std::vector<RankedQuantity>& quantities, const std::string& title) {
-  Json data{{"asked", Json::array()}, {"quantities", Json::array()}, {"designs", Json::array()}};
+  Json data{{"asked", Json::array()},
+            {"quantities", Json::array()},
+            {"undecided", Json::array()},
+            {"designs", Json::array()}};
+  for (const UndecidedDesigns& undecided : undecided_designs(designs, quantities))
+    data["undecided"].push_back(text(undecided));
   for (const RankedQuantity& quantity : quantities) data["asked"].push_back(quantity.key);
   const auto all = all_quantities(designs);
   for (const RankedQuantity& quantity : all)
@@ -222,27 +336,30 @@ std::string designs_page(const std::vector<RankedDesign>& designs,
                                       {"factor", quantity.shown.factor}});
   int rank = 0;
   for (const RankedDesign& one : designs) {
-    Json values = Json::object();
+    Json values = Json::object(), errors = Json::object();
     for (const auto& quantity : data["quantities"]) {
       const std::string key = quantity["key"];
-      values[key] = number_json(one.result.value(key));
+      values[key] = number_json(one.value(key));
+      if (const auto error = one.error(key)) errors[key] = *error;
     }
     data["designs"].push_back({{"rank", ++rank},
                                {"name", one.design.name},
                                {"text", one.design.text},
                                {"front", one.front},
                                {"progression", word(one.result.progression)},
-                               {"status", status(one.result)},
+                               {"status", status(one)},
                                {"shapes", one.result.shapes},
                                {"values", std::move(values)},
+                               {"errors", std::move(errors)},
                                {"outline", one.outline}});
   }
-  return filled_template(assets::designs_html, {{"@TITLE@", escape_xml(title)},
-                                                {"@STYLE@", std::string(assets::report_css)},
-                                                {"@OWN_STYLE@", std::string(assets::designs_css)},
-                                                {"@HEADING@", escape_xml(title)},
-                                                {"@DATA@", json_in_script(data)},
-                                                {"@SCRIPT@", std::string(assets::designs_js)}});
+  return filled_template(assets::designs_html,
+                         {{"@TITLE@", escape_xml(title)},
+                          {"@STYLE@", std::string(assets::report_css)},
+                          {"@OWN_STYLE@", std::string(assets::designs_css)},
+                          {"@HEADING@", escape_xml(title)},
+                          {"@DATA@", json_in_script(data)},
+                          {"@SCRIPT@", std::string(assets::formats_js).append(assets::designs_js)}});
 }
 
 }  // namespace wheelwright

@@ -72,6 +72,7 @@ Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const G
     design.source = *std::move(valid);
     design.source.title = design.text;
     design.source.output.vtu_every = design.source.output.pictures_every = 0;
+    design.source.output.errors = ErrorEstimates::none;  // of the finalists they are estimated afterwards
     designs.push_back(std::move(design));
   }
   return designs;

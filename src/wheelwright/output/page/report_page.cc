@@ -279,7 +279,7 @@ std::string report_page(const std::vector<PageRun>& runs) {
                           {"@DATA@", "{\"runs\":[" + data + "]}"},
                           {"@CHART_LIBRARY@", std::string(assets::chart_js)},
                           {"@SCENE_LIBRARY@", has_surface ? std::string(assets::three_js) : ""},
-                          {"@PARTS@", std::string(assets::parts_js)},
+                          {"@PARTS@", std::string(assets::formats_js).append(assets::parts_js)},
                           {"@SCRIPT@", std::string(assets::report_js)}});
 }
 

@@ -96,6 +96,7 @@ std::vector<Route> WatchSession<dim>::routes() {
           asset(open, "/watch.css", "text/css; charset=utf-8", assets::watch_css),
           asset(open, "/chart.js", script, assets::chart_js),
           asset(open, "/three.js", script, assets::three_js),
+          asset(open, "/formats.js", script, assets::formats_js),
           asset(open, "/parts.js", script, assets::parts_js),
           asset(open, "/stage.js", script, assets::stage_js),
           asset(open, "/watch.js", script, assets::watch_js),

@@ -1,7 +1,7 @@
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);
 const svg = document.getElementById("plot");
-const { known, shown, scale } = plotAxes;
+const { known, shown, ends, scale } = plotAxes;
 const frame = { left: 90, right: 880, top: 20, bottom: 460 };
 
 function element(parent, name, attributes, text) {
@@ -37,8 +37,8 @@ function draw() {
   const x = data.quantities[document.getElementById("x").value], y = data.quantities[document.getElementById("y").value];
   const points = data.designs.filter(d => known(d.values[x.key]) && known(d.values[y.key]));
   if (points.length === 0) return;
-  const across = scale(points.map(d => d.values[x.key] * x.factor), frame.left, frame.right);
-  const up = scale(points.map(d => d.values[y.key] * y.factor), frame.bottom, frame.top);
+  const across = scale(points.flatMap(d => ends(d, x)), frame.left, frame.right);
+  const up = scale(points.flatMap(d => ends(d, y)), frame.bottom, frame.top);
   for (const t of across.ticks) {
     element(svg, "line", { class: "tick", x1: across.of(t), x2: across.of(t), y1: frame.top, y2: frame.bottom });
     element(svg, "text", { x: across.of(t), y: frame.bottom + 20, "text-anchor": "middle" }, String(t));
@@ -53,6 +53,9 @@ function draw() {
           `${y.label} [${y.unit}]`);
   for (const d of [...points].reverse()) {
     const px = across.of(d.values[x.key] * x.factor), py = up.of(d.values[y.key] * y.factor);
+    const [[x1, x2], [y1, y2]] = [ends(d, x).map(across.of), ends(d, y).map(up.of)];
+    if (x1 !== x2) element(svg, "line", { class: "error", x1, x2, y1: py, y2: py });
+    if (y1 !== y2) element(svg, "line", { class: "error", x1: px, x2: px, y1, y2 });
     const link = element(svg, "a", { href: report(d) });
     const kind = (d.front === 1 ? "best " : "") + (d.progression === "preview" ? "preview" : "");
     const circle = element(link, "circle", { cx: px, cy: py, r: d.front === 1 ? 8 : 5, class: kind });
@@ -83,7 +86,7 @@ function fill_table() {
     element(name, "a", { href: report(d) }, `${d.name}: ${d.text}`);
     element(row, "td", {}, d.shapes);
     element(row, "td", { class: "text" }, d.status);
-    for (const q of data.quantities) element(row, "td", {}, shown(d.values[q.key], q));
+    for (const q of data.quantities) element(row, "td", {}, shown(d.values[q.key], q, d.errors[q.key]));
   }
 }
 
@@ -95,5 +98,7 @@ for (const [axis, chosen] of [["x", 0], ["y", Math.min(1, data.asked.length - 1)
 }
 const best = data.designs.filter(d => d.front === 1).length;
 document.getElementById("summary").textContent = `${data.designs.length} designs. For ${best} of them, no other ` + `design is better in all of: ${data.asked.map(key => data.quantities.find(q => q.key === key).label).join(", ")}.`;
+const undecided = document.getElementById("undecided");
+for (const text of data.undecided) element(undecided, "li", {}, text);
 fill_table();
 draw();

@@ -3,8 +3,14 @@
 const plotAxes = (() => {
   const known = (value) => value !== null && value !== undefined;
 
-  // A value of a quantity in its unit, at most five digits; "" if it is not known.
-  const shown = (value, quantity) => known(value) ? Number((value * quantity.factor).toPrecision(5)).toString() : "";
+  // A value of a quantity in its unit with its error, if that is known, or else at most five digits; "" if it is not known.
+  const shown = (value, { factor }, error) => !known(value) ? "" : known(error) ? formats.withError(value * factor, error * factor) :
+    Number((value * factor).toPrecision(5)).toString();
+
+  // A design's value of a quantity less its error, and with it, in the unit of the quantity; twice the value if the error is not
+  // known.
+  const ends = ({ values, errors }, { key, factor }) =>
+    [-1, 1].map((sign) => (values[key] + sign * (errors[key] ?? 0)) * factor);
 
   // The multiples of 1, 2 or 5 times a power of ten between two values, about `n` of them.
   function ticks(low, high, n) {
@@ -24,5 +30,5 @@ const plotAxes = (() => {
     return { of: (value) => from + (value - low) / (high - low) * (to - from), ticks: ticks(low, high, 6) };
   }
 
-  return { known, shown, ticks, scale };
+  return { known, shown, ends, ticks, scale };
 })();

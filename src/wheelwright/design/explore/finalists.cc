@@ -1,0 +1,191 @@
+#include "wheelwright/design/explore/finalists.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "wheelwright/case/load_saved_shape.h"
+#include "wheelwright/design/explore/design_runs.h"
+#include "wheelwright/design/explore/pareto.h"
+#include "wheelwright/design/explore/workers.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/csv.h"
+#include "wheelwright/files/file_content.h"
+#include "wheelwright/files/level_set_file.h"
+#include "wheelwright/files/path_queries.h"
+#include "wheelwright/quantities/analysis/discretization_error.h"
+#include "wheelwright/run/checkpoints/history.h"
+#include "wheelwright/run/results/finer_wheel.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The best ones of every quantity that are finalists.
+constexpr std::size_t best_of_each = 3;
+
+/// The time of a finalist on its finer grid, at most, in trials of its run (docs/exploration.md).
+constexpr double trials_per_finalist = 5;
+
+fs::path numbers_file(const fs::path& designs, const Design& design) {
+  return designs / (design.name + ".finer.json");
+}
+
+std::optional<FinerNumbers> known_numbers(const fs::path& file) {
+  if (!is_there(file)) return {};
+  try {
+    return finer_numbers(file_content(file));
+  } catch (const nlohmann::json::exception&) {
+    return {};  // computed again
+  }
+}
+
+/// The mean time of a trial of a run [s]; 0 if it is not known.
+double seconds_per_trial(const fs::path& run) {
+  std::ifstream stream(run / history_file);
+  std::string line, last;
+  if (!std::getline(stream, line)) return 0;
+  const auto names = csv_cells(line);
+  const auto column = static_cast<std::size_t>(std::ranges::find(names, "elapsed [s]") - names.begin());
+  int trials = 0;
+  for (; std::getline(stream, line); ++trials) last = line;
+  const auto cells = csv_cells(last);
+  return trials > 0 && column < cells.size() ? std::atof(cells[column].c_str()) / trials : 0;
+}
+
+/// The last shape of a run on the design's own grid; nothing if the run ended on a coarser one.
+std::optional<LevelSet<2>> last_shape(const Design& design, const fs::path& run) {
+  const auto shape = parse_level_set_file<2>(file_content(run / saved_shape_file));
+  return shape && level_of(design.source, *shape) == 0 ? std::optional(*shape) : std::nullopt;
+}
+
+/// Adds the numbers of a wheel on the finer grid under one load; `suffix` of its keys.
+void add_numbers(const DescribedWheel<2>& wheel, const std::string& load_case, double refinement,
+                 const DesignResult& result, FinerNumbers& finer) {
+  for (const WheelNumber<2>& number : numbers_of(wheel)) {
+    const std::string key = load_case.empty() ? number.key : key_in_case(number.key, load_case);
+    const double here = result.value(key), there = known_value(number, wheel).value_or(NAN);
+    if (!std::isfinite(here) || !std::isfinite(there)) continue;
+    finer.numbers[key] = there;
+    finer.errors[key] = error_on_finer_grid(here, there, refinement, number.converges);
+  }
+}
+
+double largest_violation(const std::vector<BoundState>& bounds) {
+  double largest = 0;
+  for (const BoundState& bound : bounds)
+    if (!bound.is_kept()) largest = std::max(largest, bound.violation);
+  return largest;
+}
+
+/// A design on a finer grid.
+struct SolvedDesign {
+  FinerNumbers numbers;
+  bool may_be_stored = true;  ///< whether the numbers, or the failure, would be the same next time
+};
+
+SolvedDesign unsolved(std::string why, bool may_be_stored) {
+  return {FinerNumbers{.failure = std::move(why)}, may_be_stored};
+}
+
+SolvedDesign solved_on_finer_grid(const RatedDesign& of, const fs::path& run, const Interrupt& interrupt) {
+  const Case c = with_levels_of_results(of.design.source);
+  const auto shape = last_shape(of.design, run);
+  if (!shape) return unsolved("its run did not end on its own grid", false);
+  const auto study = make_study<2>(c);
+  if (!study) return unsolved(to_string(study.failure()), true);
+  const auto finer = finer_shape<2>(c, *study->solver, *shape);
+  if (!finer) return unsolved(finer.failure(), false);  // there may be more memory the next time
+  const auto states = finer->solver->states(
+      finer->shape, positions_of_results<2>(*study, *finer->solver, finer->shape), interrupt);
+  const auto wheel = finer_wheel<2>(c, study->load_cases, *finer, states);
+  if (!wheel) return unsolved(wheel.failure(), states.failure().reason != FailureReason::interrupted);
+  SolvedDesign solved{FinerNumbers{.grid = cells_text(wheel->wheel.grid)}};
+  add_numbers(wheel->wheel, "", wheel->refinement, of.result, solved.numbers);
+  for (const DescribedWheel<2>& other : wheel->wheel.others)
+    add_numbers(other, other.load_case, wheel->refinement, of.result, solved.numbers);
+  if (const auto bounds = bounds_of<2>(c, study->load_cases, *finer->solver, finer->shape, states))
+    solved.numbers.violation = largest_violation(*bounds);
+  return solved;
+}
+
+/// Solves designs on a finer grid, and stores their numbers.
+void solve(const fs::path& place, const std::vector<RatedDesign*>& designs,
+           const FinalistSettings& settings) {
+  std::mutex mutex;
+  on_threads(settings.threads, static_cast<int>(designs.size()), [&](int i) {
+    if (settings.stop_requested()) return;
+    RatedDesign& one = *designs[i];
+    SolvedDesign solved =
+        solved_on_finer_grid(one, place / one.design.name, Interrupt(settings.stop_requested));
+    const std::scoped_lock lock(mutex);
+    if (solved.may_be_stored) write_atomically(numbers_file(place, one.design), to_json(solved.numbers));
+    one.finer = std::move(solved.numbers);
+    settings.done(one);
+  });
+}
+
+/// Gives these designs their numbers on a finer grid; fewer after a request to stop.
+void add_finer_numbers(const fs::path& place, const std::vector<RatedDesign*>& designs,
+                       const FinalistSettings& settings) {
+  std::vector<RatedDesign*> unknown;
+  double seconds = 0;
+  for (RatedDesign* one : designs) {
+    one->finer = known_numbers(numbers_file(place, one->design));
+    if (one->finer) continue;
+    unknown.push_back(one);
+    seconds += trials_per_finalist * seconds_per_trial(place / one->design.name);
+  }
+  if (unknown.empty()) return;
+  std::vector<RatedDesign> told;
+  for (const RatedDesign* one : unknown) told.push_back(*one);
+  settings.begin(told, seconds / std::min<double>(settings.threads, static_cast<double>(unknown.size())));
+  solve(place, unknown, settings);
+}
+
+}  // namespace
+
+std::vector<int> finalists(const std::vector<RatedDesign>& designs,
+                           const std::vector<RankedQuantity>& quantities) {
+  const auto points = finest_points(designs, quantities);
+  const auto front = fronts(points);
+  const auto may_be = [&](int i) {
+    return front[i] > 0 && designs[i].result.progression == Progression::full;
+  };
+  std::vector<int> result;
+  const auto add = [&](int i) {
+    if (std::ranges::find(result, i) == result.end()) result.push_back(i);
+  };
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    std::vector<int> order;
+    for (int i = 0; i < static_cast<int>(designs.size()); ++i)
+      if (may_be(i) && points[i].violation == 0) order.push_back(i);
+    std::ranges::stable_sort(order, {}, [&](int i) { return points[i].costs[q]; });
+    order.resize(std::min(order.size(), best_of_each));
+    std::ranges::for_each(order, add);
+  }
+  for (const int i : spread_order(points))
+    if (front[i] == 1 && may_be(i)) add(i);
+  return result;
+}
+
+std::vector<RatedDesign> with_finer_numbers(const fs::path& folder, std::vector<RatedDesign> designs,
+                                            const std::vector<RankedQuantity>& quantities,
+                                            const FinalistSettings& settings) {
+  for (int n_left = max_finalists; n_left > 0 && !settings.stop_requested();) {
+    std::vector<RatedDesign*> next;
+    for (const int i : finalists(designs, quantities))
+      if (!designs[i].finer && std::ssize(next) < n_left) next.push_back(&designs[i]);
+    if (next.empty()) break;
+    add_finer_numbers(folder / folder_of_designs, next, settings);
+    n_left -= static_cast<int>(next.size());
+  }
+  return designs;
+}
+
+}  // namespace wheelwright
