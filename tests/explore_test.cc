@@ -507,7 +507,7 @@ double initial_stiffness(const Case& c, bool is_on_finer) {
   const LevelSet<2> shape = on_grid(initial_shape<2>(c), model.grid);
   const auto states = (*solver)->states(shape, (*solver)->distinct_positions(shape), Interrupt());
   if (!states) throw std::runtime_error(states.failure().detail);
-  return shape_summary(**solver, shape, **states).stiffness;
+  return shape_summary<2>(**solver, **states).stiffness;
 }
 
 // Walls of 1.2 cells look stiffer than they are, by more than thick ones. The other wheel's holes are widened
