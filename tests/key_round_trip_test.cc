@@ -128,6 +128,7 @@ Case with_tables(Case c, const SectionArray<Struct>& section) {
   }
   if constexpr (std::is_same_v<Struct, MaterialLayer>) {
     tables.resize(2, section.example);
+    tables[1].name = "core";
     tables[0].inner_radius.reset();
     tables[0].outer_radius = 0.22;
   }

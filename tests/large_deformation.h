@@ -103,7 +103,7 @@ class PlaneWheel {
     const PolarGrid<2>& grid = lattice_.grid();
     Cell& last = cells_.back();
     const ElasticElement<2> element(grid, lattice_.degree(), grid.cell_position(last.cell), law_);
-    const auto quadrature = cell_quadrature(grid, lattice_.degree(), last.cell, points);
+    const auto quadrature = weighted_points(grid, lattice_.degree(), last.cell, points);
     for (std::size_t q = 0; q < points.size(); ++q)
       last.points.push_back({element.gradient(points[q].xi), factor * quadrature.weights[q], is_filling});
   }

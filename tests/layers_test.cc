@@ -14,6 +14,7 @@
 #include "wheelwright/quantities/analysis/finer_grid.h"
 #include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
+#include "wheelwright/run/study/case_report.h"
 #include "wheelwright/run/study/layer_shapes.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
@@ -326,6 +327,9 @@ TEST(Layers, WithoutHolesStaySolid) {
       "[optimizer]\niterations = 5\ntread_band = 0.005\n",
       "layer.toml");
   ASSERT_TRUE(good.value) << good.problems.front().text();
+  EXPECT_TRUE(std::ranges::any_of(warnings(*good.value), [](const std::string& warning) {
+    return warning.starts_with("holes reach into layer 1");
+  }));
   const auto study = make_study<2>(*good.value);
   ASSERT_TRUE(study);
   const auto optimizer = optimizer_of(*study);
@@ -375,6 +379,10 @@ TEST(Layers, ThatCannotBeAreRefusedByKey) {
   refuses(layer + "inner_radius = 0.09\nouter_radius = 0.08\n", "material.layer[1].outer_radius");
   refuses(layer + "outer_radius = 0.2\n", "material.layer[1].outer_radius");
   refuses(layer + layer, "material.layer[2]");
+  refuses(layer + "name = \"my tyre\"\ninner_radius = 0.09\n", "material.layer[1].name");
+  refuses(layer + "name = \"material\"\ninner_radius = 0.09\n", "material.layer[1].name");
+  refuses(layer + "name = \"a\"\ninner_radius = 0.09\n" + layer + "name = \"a\"\nouter_radius = 0.06\n",
+          "material.layer[2].name");
   refuses("[[material.layer]]\ninner_radius = 0.09\npoissons_ratio = 0.4\n",
           "material.layer[1].youngs_modulus");
   refuses(layer + "inner_radius = 0.0912345\n[grid]\nradial_cells = 20\n", "material.layer[1].inner_radius");

@@ -13,6 +13,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/file_content.h"
 #include "wheelwright/files/path_queries.h"
@@ -77,15 +78,18 @@ void DesignOptions::declare(Options& options) {
 }
 
 std::vector<RankedQuantity> DesignOptions::chosen_quantities(const Case& c) const {
+  const bool has_mass = !c.layers.empty() && all_have_density(c);
+  const auto of_word = [&](std::string_view word) {
+    return word == "mass" && has_mass ? ranked_mass() : *find_quantity(word);
+  };
   std::vector<RankedQuantity> chosen;
   if (quantities) {
-    for (const std::string& word : words(*quantities)) chosen.push_back(*find_quantity(word));
+    for (const std::string& word : words(*quantities)) chosen.push_back(of_word(word));
     return chosen;
   }
-  const RankedQuantity* first = find_quantity(word_of_minimized(c.objective.minimize));
-  chosen.push_back(*first);
+  chosen.push_back(of_word(word_of_minimized(c.objective.minimize)));
   const std::string_view evenness = c.load.travel ? "force_variation" : "run_out";
-  if (first->word != evenness) chosen.push_back(*find_quantity(evenness));
+  if (chosen.front().word != evenness) chosen.push_back(of_word(evenness));
   return chosen;
 }
 

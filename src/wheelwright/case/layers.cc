@@ -62,6 +62,11 @@ bool layers_fit(const Case& c, int radial_cells) {
   return materials<2>(c).fit(grid);
 }
 
+bool all_have_density(const Case& c) {
+  return std::ranges::all_of(
+      placed_materials(c), [](const PlacedMaterial& placed) { return placed.material.density.has_value(); });
+}
+
 Material tread_material(const Case& c) { return placed_materials(c).back().material; }
 
 double modulus_at(const Case& c, double radius) {

@@ -35,6 +35,9 @@ Materials<dim> materials(const Case& c);
 /// Whether with this many radial cells the layers end on lines of the grid.
 bool layers_fit(const Case& c, int radial_cells);
 
+/// Whether the density of every material of the ring is known.
+bool all_have_density(const Case& c);
+
 /// The material at the tread.
 Material tread_material(const Case& c);
 

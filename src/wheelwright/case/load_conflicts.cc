@@ -7,6 +7,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
+#include "wheelwright/case/names.h"
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
@@ -32,9 +33,12 @@ void check_load(const SingleLoad& single, Conflicts& found) {
   const double half_width = hertz_half_width(c);
   const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
   if (is_overloaded_in_pascals(c)) {
-    found.push_back({{key_of(&Material::youngs_modulus), single.key(&Load::force)},
+    const PlacedMaterial tread = placed_materials(c).back();
+    found.push_back({{tread.layer ? key_of(&MaterialLayer::youngs_modulus, *tread.layer)
+                                  : key_of(&Material::youngs_modulus),
+                      single.key(&Load::force)},
                      "so small that the load would flatten a solid disc",
-                     question_of_megapascals(c.material.youngs_modulus)});
+                     question_of_megapascals(tread.material.youngs_modulus)});
     return;
   }
   found.push_back(
@@ -124,8 +128,7 @@ double rotation_strain(const Case& c) {
 void check_speed(const SingleLoad& single, Conflicts& found) {
   const Case& c = single.c;
   if (c.load.speed == 0) return;
-  const auto has_density = [](const PlacedMaterial& placed) { return placed.material.density.has_value(); };
-  if (!std::ranges::all_of(placed_materials(c), has_density)) {
+  if (!all_have_density(c)) {
     found.push_back({{single.key(&Load::speed), key_of(&Material::density)},
                      "the centrifugal load needs the density of every material",
                      c.layers.empty() ? "set material.density"
@@ -148,13 +151,10 @@ void check_speed(const SingleLoad& single, Conflicts& found) {
 /// Checks the list of load cases, and references to them.
 void check_names_of_load_cases(const Case& c, Conflicts& found) {
   const auto& cases = c.load.cases;
-  const auto is_in_word = [](char x) {
-    return (x >= 'a' && x <= 'z') || (x >= 'A' && x <= 'Z') || (x >= '0' && x <= '9') || x == '-' || x == '_';
-  };
   std::vector<std::string> names;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const CaseKey key = key_of(&CaseLoad::name, k);
-    if (cases[k].name.empty() || !std::ranges::all_of(cases[k].name, is_in_word))
+    if (!is_word(cases[k].name))
       found.push_back({{key}, "the name must be one word of letters, digits, - and _", "use another name"});
     if (std::ranges::find(names, cases[k].name) != names.end())
       found.push_back({{key}, "another load case has this name", "use a unique name"});

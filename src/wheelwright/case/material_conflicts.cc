@@ -4,6 +4,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
+#include "wheelwright/case/names.h"
 #include "wheelwright/case/section_conflicts.h"
 
 namespace wheelwright {
@@ -29,6 +30,23 @@ void check_compressibility(const Case& c, const Material& material, const CaseKe
     found.push_back({{ratio, key_of(&Material::plane)},
                      "so close to 1/2 that rounding would spoil the solution",
                      fmt::format("use at most {}: the difference to 1/2 does not matter", largest)});
+}
+
+/// Names are parts of names of files.
+void check_names(const Case& c, Conflicts& found) {
+  std::vector<std::string> names{"material"};
+  for (std::size_t i = 0; i < c.layers.size(); ++i) {
+    const std::string& name = c.layers[i].name;
+    if (name.empty()) continue;
+    const CaseKey key = key_of(&MaterialLayer::name, i);
+    if (!is_word(name))
+      found.push_back({{key}, "the name must be one word of letters, digits, - and _", "use another name"});
+    if (std::ranges::find(names, name) != names.end())
+      found.push_back({{key},
+                       name == names[0] ? "this is what lies in no layer" : "another layer has this name",
+                       "use a unique name"});
+    names.push_back(name);
+  }
 }
 
 /// Whether every layer is an annulus within the ring; adds what is wrong.
@@ -120,6 +138,7 @@ bool has_rest(const Case& c) {
 }  // namespace
 
 void material_conflicts(const Case& c, Conflicts& found) {
+  check_names(c, found);
   if (c.wheel.inner_radius >= c.wheel.outer_radius || !check_places(c, found)) return;
   if (has_rest(c)) check_compressibility(c, c.material, key_of(&Material::poissons_ratio), found);
   for (const PlacedMaterial& placed : placed_materials(c))

@@ -332,7 +332,7 @@ poissons_ratio = 0.45
 density = 1200
 
 [[material.layer]]
-name = "shear band"
+name = "band"
 inner_radius = 0.28
 outer_radius = 0.29
 youngs_modulus = 2e9

@@ -1,7 +1,5 @@
 #include "wheelwright/case/quantity_needs.h"
 
-#include <algorithm>
-
 #include "wheelwright/case/layers.h"
 
 namespace wheelwright {
@@ -10,9 +8,7 @@ namespace {
 bool has(const Case& c, Input input) {
   switch (input) {
     case Input::density:
-      return std::ranges::all_of(placed_materials(c), [](const PlacedMaterial& placed) {
-        return placed.material.density.has_value();
-      });
+      return all_have_density(c);
     case Input::load:
       return !c.load.travel;
     case Input::travel:

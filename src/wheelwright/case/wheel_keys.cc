@@ -92,7 +92,7 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
       .example = {.name = "tyre", .inner_radius = 0.33, .youngs_modulus = 30e6, .poissons_ratio = 0.48},
       .keys = {{.name = "name",
                 .field = TextField<MaterialLayer>{&MaterialLayer::name, "its number"},
-                .meaning = "a word for pictures, files and messages, e.g. tyre or core"},
+                .meaning = "a word of letters, digits, - and _, for messages and names of files, e.g. tyre"},
                radius_key<MaterialLayer>(&MaterialLayer::inner_radius, "inner_radius", "wheel.inner_radius",
                                          "where the layer begins"),
                radius_key<MaterialLayer>(&MaterialLayer::outer_radius, "outer_radius", "wheel.outer_radius",

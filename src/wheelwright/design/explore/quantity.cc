@@ -16,6 +16,16 @@ RankedQuantity ranked(const Quantity& quantity) {
           .is_of_shape = quantity->of == Positions::none};
 }
 
+RankedQuantity ranked_mass() {
+  return {.word = "mass",
+          .label = "mass",
+          .shown = {"kg", 1},
+          .key = "mass_kg",
+          .is_larger_better = false,
+          .is_of_evenness = false,
+          .is_of_shape = true};
+}
+
 const std::vector<RankedQuantity>& ranked_quantities() {
   static const std::vector<RankedQuantity> all = [] {
     std::vector<RankedQuantity> quantities;

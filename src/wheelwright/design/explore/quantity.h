@@ -23,6 +23,10 @@ struct RankedQuantity {
 
 RankedQuantity ranked(const Quantity& quantity);
 
+/// The mass itself, for wheels of several materials; the word `mass` otherwise means the volume, to which it
+/// is proportional.
+RankedQuantity ranked_mass();
+
 /// All built-in ones.
 const std::vector<RankedQuantity>& ranked_quantities();
 

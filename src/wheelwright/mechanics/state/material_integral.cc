@@ -21,7 +21,7 @@ void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
       .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
         const auto place = model.grid.cell_position(cell);
         if (!covered.covers(model.grid, place[0])) return;
-        auto quadrature = cell_quadrature(model.grid, model.degree, cell, points);
+        auto quadrature = weighted_points(model.grid, model.degree, cell, points);
         visit({std::move(quadrature.weights), by_load_case(displacement.strains(cell, quadrature.points)),
                model.grid.n_sectors, model.materials.in_row(model.grid, place[0])});
       });

@@ -34,17 +34,17 @@ class MaterialRule {
 
 /// Quadrature points of a cell.
 template <int dim>
-struct CellQuadrature {
+struct WeightedPoints {
   std::vector<Vec<dim>> points;  ///< of the unit cell
   std::vector<double> weights;   ///< [m^2, or m^3 when dim = 3]
 };
 
 /// For a displacement of that degree.
 template <int dim>
-CellQuadrature<dim> cell_quadrature(const PolarGrid<dim>& grid, int degree, int cell,
+WeightedPoints<dim> weighted_points(const PolarGrid<dim>& grid, int degree, int cell,
                                     std::span<const ReferencePoint<dim>> points) {
   const CellMap<dim> map(grid, degree, grid.cell_position(cell));
-  CellQuadrature<dim> result;
+  WeightedPoints<dim> result;
   for (const auto& point : points) {
     result.points.push_back(point.xi);
     result.weights.push_back(point.weight *

@@ -35,7 +35,7 @@ double squared_norm(const Voigt<dim>& strain) {
 template <int dim>
 struct MaterialCell {
   int cell;
-  CellQuadrature<dim> quadrature;
+  WeightedPoints<dim> quadrature;
 };
 
 /// The cells with material, in every column of the sector.
@@ -47,7 +47,7 @@ std::vector<std::vector<MaterialCell<dim>>> material_cells(const RollingModel<di
   MaterialRule<dim>(domain, model.degree + 1)
       .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
         columns[grid.cell_position(cell)[1]].push_back(
-            {cell, cell_quadrature(grid, model.degree, cell, points)});
+            {cell, weighted_points(grid, model.degree, cell, points)});
       });
   return columns;
 }

@@ -16,6 +16,9 @@
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/mechanics/rolling/contact_failure.h"
 #include "wheelwright/run/study/problem_size.h"
+#include "wheelwright/run/study/study.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/annulus.h"
 
 namespace wheelwright {
 
@@ -41,8 +44,10 @@ std::string layers_report(const Case& c) {
   std::string report;
   for (const auto& [inner, outer, material, layer] : placed_materials(c))
     report += line(layer ? name_of_layer(c, *layer) : "material",
-                   fmt::format("radius {:.6g} to {:.6g} mm, E {:.6g} MPa, nu {:.6g}{}", inner * 1e3,
+                   fmt::format("radius {:.6g} to {:.6g} mm, E {:.6g} MPa, nu {:.6g}, {}{}", inner * 1e3,
                                outer * 1e3, material.youngs_modulus / 1e6, material.poissons_ratio,
+                               material.density ? fmt::format("{:.6g} kg/m^3", *material.density)
+                                                : "no density, so no mass is shown",
                                layer && c.layers[*layer].holes == LayerHoles::none ? ", no holes" : ""));
   return report;
 }
@@ -145,6 +150,26 @@ std::string coarse_contact_warning(const Case& c, double cells) {
                             std::ceil(c.grid.angular_cells * least_cells_per_contact_patch / reachable));
 }
 
+/// Holes of the initial shape across layers that have none end at them.
+std::vector<std::string> holes_in_solid_layers(const Case& c) {
+  std::vector<std::string> result;
+  if (c.wheel.dimension == 3 || c.layers.empty()) return result;
+  Case open = c;
+  for (MaterialLayer& layer : open.layers) layer.holes = LayerHoles::allowed;
+  const LevelSet<2> shape = initial_shape<2>(open);
+  const PolarGrid<2>& grid = shape.lattice.grid();
+  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
+    if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
+    const auto part = in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line);
+    if (material_measure(part) < (1 - 1e-3) * sector_measure<2>(part.lattice.grid()))
+      result.push_back(
+          fmt::format("holes reach into {}, which has holes = \"none\": there they stay material, and "
+                      "become smaller, vanish or are divided",
+                      name_of_layer(c, *layer)));
+  }
+  return result;
+}
+
 std::string bounds_report(const Case& c) {
   std::string report;
   for (const Constraint& bound : c.constraints) {
@@ -204,6 +229,7 @@ std::vector<std::string> warnings(const Case& c) {
         total_load_positions(c)));
   if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never)
     result.push_back("there are no holes, so no boundary can move");
+  std::ranges::copy(holes_in_solid_layers(c), std::back_inserter(result));
   if (const double cells = smallest_hole_in_cells(c);
       cells < least_cells_per_hole && c.optimizer.smoothing == 0)
     result.push_back(

@@ -1,5 +1,7 @@
 #include "wheelwright/run/study/layer_shapes.h"
 
+#include <algorithm>
+
 #include "wheelwright/case/layers.h"
 #include "wheelwright/shape/geometry/annulus.h"
 
@@ -14,8 +16,11 @@ std::vector<LayerShape<dim>> layer_shapes(const Case& c, const LevelSet<dim>& sh
   for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
     std::string name = layer ? name_of_layer(c, *layer) : "material";
     if (!layer && ++n_rests > 1) name += " " + std::to_string(n_rests);
-    result.push_back(
-        {std::move(name), in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line)});
+    LevelSet<dim> part = in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line);
+    // Holes end a thousandth of a cell before it.
+    if (layer && c.layers[*layer].holes == LayerHoles::none)
+      for (double& value : part.values) value = std::min(value, -grid.resolution());
+    result.push_back({std::move(name), std::move(part)});
   }
   return result;
 }

@@ -35,6 +35,13 @@ Case coarse_solid(Case c) {
   return coarse;
 }
 
+/// Whether spokes are thinner than a cell.
+bool has_thin_spokes(const Case& c) {
+  const double cell = polar_grid<2>(c).resolution();
+  return std::ranges::any_of(c.shapes.spokes,
+                             [&](const SpokeShape& spoke) { return spoke.thickness < cell; });
+}
+
 /// Of the whole wheel [N/m].
 template <int dim>
 Expected<double> stiffness(const Case& c, const Interrupt& interrupt) {
@@ -69,6 +76,11 @@ std::optional<Plane> PlaneComparison::recommended() const {
 
 Expected<PlaneComparison> compare_planes(const Case& c, const Interrupt& interrupt) {
   const Case solid = coarse_solid(c);
+  if (solid.grid.radial_cells * solid.grid.angular_cells > 2 * most_cells_of_a_section)
+    return Failure{FailureReason::unsupported_model,
+                   "layers of materials do not end on the lines of a coarse grid"};
+  if (has_thin_spokes(solid))
+    return Failure{FailureReason::unsupported_model, "spokes are thinner than the cells of a coarse grid"};
   Case plane = solid;
   plane.wheel.dimension = 2;
   PlaneComparison result{0, 0, 0, grid_text(solid)};
