@@ -330,6 +330,7 @@ TEST(Layers, WithoutHolesStaySolid) {
   EXPECT_TRUE(std::ranges::any_of(warnings(*good.value), [](const std::string& warning) {
     return warning.starts_with("holes reach into layer 1");
   }));
+  EXPECT_TRUE(lost_on_the_grid<2>(*good.value).empty());
   const auto study = make_study<2>(*good.value);
   ASSERT_TRUE(study);
   const auto optimizer = optimizer_of(*study);

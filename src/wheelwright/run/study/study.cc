@@ -255,7 +255,10 @@ std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   const Lattice<dim> samples(fine, 1);
   const auto sampled = [](const auto& shape, const auto& nodes) { return values_on(shape, nodes); };
   const SavedLevelSet* saved = saved_shape(c);
-  const auto given = saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c);
+  auto given = saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c);
+  // What layers without holes take of them is not lost on the grid.
+  if (const auto between = bands(c).between; !between.empty())
+    given = ProtectedBands<dim>(samples, {.rim = {}, .tread = {}, .between = between}).keep(std::move(given));
   return topology_changes(components(given, 1), components(initial_shape<dim>(c)));
 }
 
