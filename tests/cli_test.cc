@@ -403,7 +403,7 @@ TEST_F(CommandLine, SweepSolvesItsFinalistsOnAFinerGridUnlessToldNot) {
   for (const char* name : {"001", "002"})
     EXPECT_TRUE(std::filesystem::exists(folder() / "sweep/designs" / fmt::format("{}.finer.json", name)));
   EXPECT_NE(fine.output.find("+-"), std::string::npos) << fine.output;
-  // The time is told before it is spent.
+  // The program states the expected time first.
   EXPECT_LT(fine.output.find("takes about"), fine.output.find("16 x 192 cells")) << fine.output;
 }
 

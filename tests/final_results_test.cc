@@ -218,7 +218,7 @@ TEST(BoundsOnFinerGrid, AreToldWithTheTighterBoundThatWouldKeepThem) {
     EXPECT_EQ(finer_grid_warning(bound).find("tighten"), std::string::npos);
   }
   SummarizedBound violated = checked('<', 4e-3, 4.1e-3, 3.8e-3);
-  violated.is_kept = false;  // which is told anyway
+  violated.is_kept = false;  // which the program reports without a finer grid
   EXPECT_EQ(finer_grid_warning(violated), "");
 }
 

@@ -15,7 +15,7 @@ struct PlacedMaterial {
   std::optional<std::size_t> layer;  ///< of the case; nothing for what lies in none
 };
 
-/// Where a layer of the case lies.
+/// The radii between which a layer of the case lies.
 struct LayerRadii {
   double inner, outer;  ///< [m]
 };

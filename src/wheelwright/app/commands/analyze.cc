@@ -181,7 +181,7 @@ class AnalyzeCommand : public Subcommand {
     return exit_done;
   }
 
-  /// What finer grids say about the numbers. `c`: with the levels of the solver.
+  /// Adds what finer grids say about the numbers. `c` has the tread levels of the solver.
   template <int dim>
   void add_accuracy(const Case& c, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
                     const SolvedStates<dim>& states, RollingReport& report) const {

@@ -69,7 +69,8 @@ struct RatedDesign {
   std::optional<double> error(const std::string& key) const;
 };
 
-/// What designs are ranked by: costs to minimize, in the order of the quantities, on their own grids.
+/// Returns the costs by which designs are ranked: to be minimized, in the order of the quantities, on their
+/// own grids.
 std::vector<RatedPoint> rated_points(const std::vector<RatedDesign>& designs,
                                      const std::vector<RankedQuantity>& quantities);
 

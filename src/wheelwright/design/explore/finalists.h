@@ -15,9 +15,10 @@ namespace wheelwright {
 /// The maximum number of designs that are solved on a finer grid.
 inline constexpr int max_finalists = 24;
 
-/// Of the designs that were optimized to their end: the best three in every quantity and those that no other
-/// one is better than, by index, the most important ones first. Designs that have numbers on a finer grid are
-/// compared by these with the others: those look better on their own grids, so that none is missed.
+/// Chooses among the designs that were optimized to their end the best three in every quantity and those that
+/// no other design is better than. Returns their indices, the most important ones first. Designs that have
+/// numbers on a finer grid are compared by these with the others: those look better on their own grids, so
+/// that none is missed.
 std::vector<int> finalists(const std::vector<RatedDesign>& designs,
                            const std::vector<RankedQuantity>& quantities);
 

@@ -94,7 +94,7 @@ std::string violation_text(double violation) {
   return fmt::format("violates a bound by {:.2g} %", 100 * violation);
 }
 
-/// What must be known of a design beside its numbers; empty without such.
+/// Returns what a reader must know of a design besides its numbers; empty if there is nothing.
 std::string mark(const RatedDesign& one) {
   if (one.result.violation > 0) return violation_text(one.result.violation);
   if (!one.finer) return "";

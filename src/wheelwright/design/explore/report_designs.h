@@ -22,8 +22,8 @@ struct UndecidedDesigns {
   std::vector<std::string> designs;
 };
 
-/// Of the designs with numbers on a finer grid: where the lead of one over the next is smaller than the
-/// errors.
+/// Finds among the designs with numbers on a finer grid those whose lead over the next one is smaller than
+/// the errors.
 std::vector<UndecidedDesigns> undecided_designs(const std::vector<RankedDesign>& designs,
                                                 const std::vector<RankedQuantity>& quantities);
 

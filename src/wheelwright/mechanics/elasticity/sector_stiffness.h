@@ -73,7 +73,7 @@ struct SectorStiffness {
   SparseSymmetric matrix;
 
   /// A ghost penalty: `stiffness` acts on the dofs of `nodes`, with -1 for fixed nodes: the minus cell and
-  /// the plus cell of a face; one of them alone if the other is its mirror image or of another material; or
+  /// the plus cell of a face; only one of them if the other is its mirror image or of another material; or
   /// one of these cells and the derivatives on the face if it is one between sectors.
   struct Ghost {
     std::vector<int> nodes;

@@ -333,7 +333,7 @@ std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel) {
 
 namespace {
 
-/// The estimate of an error from the number alone.
+/// The estimate of an error that uses no other number.
 template <int dim>
 double by_two_grids(const WheelNumber<dim>& number, double value, double on_finer, double refinement) {
   return discretization_error(value, on_finer, refinement, number.converges);

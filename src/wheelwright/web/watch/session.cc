@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 /// How long a page waits for news before it polls again.
 constexpr auto patience = 15s;
 
-/// How long a page waits for errors before it is told how long they have taken so far.
+/// The longest time that a request for errors waits before it reports the time spent so far.
 constexpr auto between_tellings = 1s;
 
 /// A nonnegative integer parameter of the address; 0 if absent.
