@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <ranges>
 
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
@@ -40,22 +39,22 @@ bool can_hold(const ExportFormat& format, const SurfaceModel*) { return format.o
 std::string file(const ExportFormat& format, const WheelModel& wheel) { return format.of_plane(wheel); }
 std::string file(const ExportFormat& format, const SurfaceModel& wheel) { return format.of_surface(wheel); }
 
-template <class Formats>
-std::string joined_names(Formats&& formats) {
+std::string names_of_formats(bool (*is_named)(const ExportFormat&)) {
   std::string names;
-  for (const ExportFormat& format : formats)
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
+  for (const ExportFormat& format : export_formats())
+    if (is_named(format)) names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
   return names;
 }
 
-std::string names_of_formats() { return joined_names(export_formats()); }
+std::string names_of_formats() {
+  return names_of_formats([](const ExportFormat&) { return true; });
+}
 
 /// The formats that can hold a wheel of this kind.
 template <class Model>
 std::string names_of_formats_for() {
-  return joined_names(export_formats() | std::views::filter([](const ExportFormat& format) {
-                        return can_hold(format, static_cast<const Model*>(nullptr));
-                      }));
+  return names_of_formats(
+      [](const ExportFormat& format) { return can_hold(format, static_cast<const Model*>(nullptr)); });
 }
 
 /// The formats in a list like "dxf,svg", without duplicates; nothing if one is unknown or the list is empty.
@@ -218,7 +217,7 @@ class ExportCommand : public Subcommand {
                                   .surface = fitted->surface,
                                   .parts = fitted->parts,
                                   .map_degree = input.source.grid.degree},
-                     *std::move(fitted));
+                     *fitted);
   }
 
   static std::string stem(const std::string& wheel, std::string layer) {

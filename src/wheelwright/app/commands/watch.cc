@@ -76,11 +76,12 @@ class WatchCommand : public Subcommand {
   bool find_designs() {
     if (!designs_) return true;
     auto found = offered_designs(*designs_);
-    if (found)
-      offered_ = *std::move(found);
-    else
+    if (!found) {
       print_err("wheelwright watch: --designs: {}\n", found.failure().reason);
-    return bool(found);
+      return false;
+    }
+    offered_ = *std::move(found);
+    return true;
   }
 
   /// Reads the commands to replay, before the run creates its folder.
@@ -92,11 +93,12 @@ class WatchCommand : public Subcommand {
       return false;
     }
     auto log = parse_command_log(*text);
-    if (log)
-      log_ = *std::move(log);
-    else
+    if (!log) {
       print_err("{}: {}\n", *replay_, log.failure().reason);
-    return bool(log);
+      return false;
+    }
+    log_ = *std::move(log);
+    return true;
   }
 
   template <int dim>

@@ -112,8 +112,9 @@ void draw_wheels(const std::vector<RankedDesign>& designs, std::string& svg) {
   for (int i = 0; i < std::min(max_wheels, static_cast<int>(designs.size())); ++i) {
     const RankedDesign& one = designs[i];
     if (one.front != 1 || one.outline.empty()) continue;
-    const double x = wheels_left + (i % wheels_per_row + 0.5) * wheels_width / wheels_per_row,
-                 y = top + (i / wheels_per_row) * (wheel_size + 44) + 0.5 * wheel_size;
+    const int row = i / wheels_per_row, column = i % wheels_per_row;
+    const double x = wheels_left + (column + 0.5) * wheels_width / wheels_per_row,
+                 y = top + row * (wheel_size + 44) + 0.5 * wheel_size;
     svg += fmt::format(
         "<path class=\"wheel\" transform=\"translate({:.1f} {:.1f}) scale({})\" d=\"{}\"/><text "
         "class=\"number middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",

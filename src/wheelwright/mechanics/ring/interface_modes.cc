@@ -15,7 +15,7 @@ namespace {
 
 /// The norm of the remainder of a random combination of all columns beyond the strong modes, with respect to
 /// their own stiffness. The coupling of a single weak mode is even smaller, and its third power is neglected.
-constexpr double weak = 1e-3;
+constexpr double weakest = 1e-3;
 
 /// Columns of a product that one thread computes.
 constexpr int columns_together = 192;
@@ -157,7 +157,7 @@ bool InterfaceModes::choose_strong_modes(const Matrix& next_outer, const Matrix&
     add_product(1, previous_outer, Op::none, scaled_rows(scales, combinations(n_outer())), left);
     subtract_found(left);
     subtract_found(left);
-    if (longest_column(left) < weak) break;
+    if (longest_column(left) < weakest) break;
     Matrix basis = column_basis(left, 1e-8).basis;
     subtract_found(basis);
     found.push_back(column_basis(basis, 1e-8).basis);

@@ -9,7 +9,7 @@ namespace wheelwright {
 namespace {
 
 constexpr double step_growth = 1.5;
-constexpr double step_reduction = 0.5;
+constexpr double overshoot_reduction = 0.5;
 
 }  // namespace
 
@@ -74,7 +74,7 @@ double DescentProposals<dim>::next_step(const Move<dim>& move, const Evaluation<
   const bool overshot =
       options_.measure_control == MeasureControl::exact && !is_approaching(options_, state_) &&
       evaluation.function(options_.objective).value > state_.evaluation.function(options_.objective).value;
-  const double step = move.step * (overshot ? step_reduction : step_growth);
+  const double step = move.step * (overshot ? overshoot_reduction : step_growth);
   return std::clamp(step, std::ldexp(options_.step, -options_.max_halvings), options_.step);
 }
 

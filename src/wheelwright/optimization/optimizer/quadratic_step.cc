@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "wheelwright/linalg/add_scaled.h"
 #include "wheelwright/linalg/box_program.h"
 #include "wheelwright/optimization/optimizer/curvature_memory.h"
 
@@ -22,10 +23,6 @@ double product_with(const Matrix& products, int vector, const std::vector<double
   double sum = 0;
   for (int j = 0; j < products.columns(); ++j) sum += products(vector, j) * combination[j];
   return sum;
-}
-
-void add(double factor, const std::vector<double>& a, std::vector<double>& to) {
-  for (size_t i = 0; i < to.size(); ++i) to[i] += factor * a[i];
 }
 
 double violation(const LinearConstraint& c, double left) {
@@ -64,8 +61,8 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
   const auto [multipliers, is_bounded] = solve(dual);
   std::vector<double> force = objective;  // the gradient of the Lagrangian: (B + shift) d = -force
   for (int i = 0; i < m; ++i) {
-    add(-multipliers[i], solved[i], d);
-    add(multipliers[i], rows[i], force);
+    add_scaled(-multipliers[i], solved[i], d);
+    add_scaled(multipliers[i], rows[i], force);
   }
   QuadraticStep step{.coefficients = d,
                      .multipliers = multipliers,

@@ -6,18 +6,16 @@
 #include <numeric>
 #include <span>
 
+#include "wheelwright/linalg/add_scaled.h"
+
 namespace wheelwright {
 namespace {
 
 using Nodal = std::vector<double>;
 
-void add(double factor, const Nodal& a, Nodal& to) {
-  for (size_t i = 0; i < to.size(); ++i) to[i] += factor * a[i];
-}
-
 Nodal combination(const std::vector<double>& coefficients, const std::vector<Nodal>& vectors) {
   Nodal sum(vectors.front().size(), 0.0);
-  for (size_t i = 0; i < vectors.size(); ++i) add(coefficients[i], vectors[i], sum);
+  for (size_t i = 0; i < vectors.size(); ++i) add_scaled(coefficients[i], vectors[i], sum);
   return sum;
 }
 
@@ -59,7 +57,7 @@ std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const LevelSet<dim>&
     Nodal load = motion.load(scaled(function.gradient, factor));
     const auto is_zero = [](double density) { return density == 0; };
     if (!std::ranges::all_of(function.edge_gradient, is_zero))
-      add(1, motion.on(shape, evaluation.edges).load(scaled(function.edge_gradient, factor)), load);
+      add_scaled(1, motion.on(shape, evaluation.edges).load(scaled(function.edge_gradient, factor)), load);
     return load;
   };
   std::vector<Nodal> result{load_of(evaluation.function(objective), 1),
@@ -287,7 +285,7 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, 
   const auto add_loads = [&](double factor, const BoundaryMotion<dim>& motion, const LevelSet<dim>& psi,
                              const Evaluation<dim>& e) {
     const auto derivatives = loads(motion, psi, e, options_.objective, constraints_);
-    for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], change);
+    for (size_t i = 0; i < derivatives.size(); ++i) add_scaled(factor * weights[i], derivatives[i], change);
   };
   add_loads(unit, space.motion_of(shape, evaluation.boundary), shape, evaluation);
   add_loads(-unit, motion_, state_.shape, state_.evaluation);

@@ -87,8 +87,10 @@ std::vector<MissingNumbers> missing_numbers(const std::vector<std::string>& whee
         of_reason.emplace_back(reason, wheels[k]);
     }
     for (const auto& [reason, names] : of_reason) {
-      const auto same = std::ranges::find_if(
-          result, [&](const MissingNumbers& one) { return one.reason == reason && one.wheels == names; });
+      const auto same =
+          std::ranges::find_if(result, [&reason = reason, &names = names](const MissingNumbers& one) {
+            return one.reason == reason && one.wheels == names;
+          });
       MissingNumbers& group =
           same != result.end() ? *same : result.emplace_back(MissingNumbers{names, reason, {}});
       group.labels.push_back(without_leading_spaces(row.label));

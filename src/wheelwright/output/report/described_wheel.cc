@@ -193,9 +193,9 @@ Converges convergence(const Quantity& quantity) {
 template <int dim>
 WheelNumber<dim> number(std::string_view quantity,
                         std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&),
-                        std::string own_label = {}) {
+                        std::string_view own_label = {}) {
   const Quantity& of = built_in(quantity);
-  return {own_label.empty() ? label(of) : std::move(own_label),
+  return {own_label.empty() ? label(of) : std::string(own_label),
           kind(of),
           number_key(of, dim),
           value,

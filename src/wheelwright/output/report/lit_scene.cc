@@ -90,7 +90,8 @@ class Canvas {
     const double area = side(a.place, b.place, c.place);
     if (!(std::abs(area) > 0)) return;
     const auto range = [&](int axis) {
-      const auto [low, high] = std::minmax({a.place[axis], b.place[axis], c.place[axis]});
+      const auto [low, high] =
+          std::minmax({corners[0].place[axis], corners[1].place[axis], corners[2].place[axis]});
       return std::array{std::max(0, static_cast<int>(std::ceil(low - 0.5))),
                         std::min(size_ - 1, static_cast<int>(std::floor(high - 0.5)))};
     };
