@@ -13,8 +13,6 @@
 
 #include "wheelwright/files/path_queries.h"
 
-extern char** environ;
-
 namespace wheelwright {
 namespace {
 

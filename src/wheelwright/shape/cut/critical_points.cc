@@ -151,7 +151,8 @@ std::vector<double> critical_places(const BernsteinForm<3>& psi, const std::arra
     }
     if (box.depth == max_depth) continue;
     for (int corner = 0; corner < 8; ++corner) {
-      Box part{box.f, box.from + (corner / 4) * 0.5 * box.width, 0.5 * box.width, box.depth + 1};
+      const int layer = corner / 4;
+      Box part{box.f, box.from + layer * 0.5 * box.width, 0.5 * box.width, box.depth + 1};
       for (Coefficients& component : part.f) component = half(component, corner);
       boxes.push_back(part);
     }

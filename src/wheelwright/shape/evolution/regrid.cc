@@ -9,7 +9,7 @@ namespace wheelwright {
 
 template <int dim>
 LevelSet<dim> regrid(const LevelSet<dim>& psi, const Lattice<dim>& lattice) {
-  const LevelSet<dim> values = values_on(psi, lattice);
+  LevelSet<dim> values = values_on(psi, lattice);
   if (have_same_nodes(psi.lattice, lattice)) return values;
   return with_symmetries_of(psi, sub_cell_filter(redistance(values)));
 }
