@@ -25,16 +25,15 @@ std::string path_of(const SomeSection& section) {
 /// Expects that every one of the members has a key.
 template <class Struct, class... Members>
 void expect_keys(const Struct& s, const Members&... members) {
-  for_section_of<Struct>([&](const auto& section) {
-    std::set<const void*> places;
-    for (const auto& key : section.keys) places.insert(place(key, s));
-    const std::set<const void*> all{&members...};
-    for (const void* member : all)
-      EXPECT_TRUE(places.contains(member))
-          << path_of(section) << ": the member at byte "
-          << static_cast<const char*>(member) - reinterpret_cast<const char*>(&s) << " has no key";
-    EXPECT_EQ(places, all) << path_of(section);
-  });
+  const auto& section = section_of<Struct>();
+  std::set<const void*> places;
+  for (const auto& key : section.keys) places.insert(place(key, s));
+  const std::set<const void*> all{&members...};
+  for (const void* member : all)
+    EXPECT_TRUE(places.contains(member))
+        << path_of(section) << ": the member at byte "
+        << static_cast<const char*>(member) - reinterpret_cast<const char*>(&s) << " has no key";
+  EXPECT_EQ(places, all) << path_of(section);
 }
 
 // Each binding names all members of a struct: a new member does not compile until it is here, and then needs

@@ -29,51 +29,41 @@ struct CaseKey {
 
 using CaseKeys = std::vector<CaseKey>;
 
-/// The names of the keys that set a member, the last declared one first.
-template <class Struct, class Value>
-std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, Value Struct::*member) {
-  const Struct sample{};
+/// The names of the keys that set the value at this place of a table, the last declared one first.
+template <class Struct>
+std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, const Struct& table,
+                                       const void* value) {
   std::vector<std::string_view> names;
   for (const Key<Struct>& key : keys)
-    if (place(key, sample) == &(sample.*member)) names.insert(names.begin(), key.name);
+    if (place(key, table) == value) names.insert(names.begin(), key.name);
   if (names.empty()) throw std::logic_error("a member without a key");
   return names;
 }
 
-/// Calls visit(section) for the section of the case file that sets the members of Struct.
-template <class Struct, class Visitor>
-void for_section_of(Visitor&& visit) {
-  for_each_section([&](const auto& section) {
-    using Of = std::decay_t<decltype(section)>;
-    if constexpr (std::same_as<Of, Section<Struct>> || std::same_as<Of, SectionArray<Struct>>) visit(section);
-  });
+/// The same of a member of the table's type.
+template <class Struct, class Value>
+std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, Value Struct::*member) {
+  const Struct sample{};
+  return names_of(keys, sample, &(sample.*member));
 }
 
 /// The key of a table `[name]` that sets this member, e.g. key_of(&Wheel::sectors).
 template <class Struct, class Value>
 CaseKey key_of(Value Struct::*member) {
-  CaseKey key;
-  for_section_of<Struct>([&](const auto& section) {
-    key = {std::string(section.name), names_of(section.keys, member)};
-  });
-  return key;
+  const auto& section = section_of<Struct>();
+  return {std::string(section.name), names_of(section.keys, member)};
 }
 
 /// Table i, counted from 0, of an array: "holes.ring[1]" for 0.
 template <class Struct>
 CaseKey table_of(std::size_t i) {
-  CaseKey key;
-  for_section_of<Struct>(
-      [&](const auto& section) { key.table = section.path() + "[" + std::to_string(i + 1) + "]"; });
-  return key;
+  return {section_of<Struct>().path() + "[" + std::to_string(i + 1) + "]"};
 }
 
 /// The key of table i, counted from 0, of an array that sets this member, e.g. key_of(&HoleRing::radius, 0).
 template <class Struct, class Value>
 CaseKey key_of(Value Struct::*member, std::size_t i) {
-  CaseKey key = table_of<Struct>(i);
-  for_section_of<Struct>([&](const auto& section) { key.names = names_of(section.keys, member); });
-  return key;
+  return {table_of<Struct>(i).table, names_of(section_of<Struct>().keys, member)};
 }
 
 /// One list after the other.

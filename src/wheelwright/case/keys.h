@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -236,44 +237,48 @@ const Section<Optimizer>& optimizer_section();
 const Section<Output>& output_section();
 const SectionArray<Expectation>& expectation_sections();
 
-/// Calls visit(section) for the arrays of shapes, whose tables are ordered as written.
+/// The arrays of shapes, whose tables are ordered as written.
+constexpr std::tuple shape_sections{&circle_shape_sections,  &ellipse_shape_sections, &slot_shape_sections,
+                                    &polygon_shape_sections, &annulus_shape_sections, &spoke_shape_sections,
+                                    &file_shape_sections,    &picture_shape_sections};
+
+/// Every Section and SectionArray, in the order of the file.
+constexpr std::tuple all_sections = std::tuple_cat(
+    std::tuple{&general_section, &wheel_section, &material_section, &material_layer_sections,
+               static_cast<const Section<Load>& (*)()>(&load_section),
+               static_cast<const SectionArray<CaseLoad>& (*)()>(&load_case_sections), &contact_section,
+               &ring_sections, &circle_sections, &sphere_sections, &tapered_sections, &saved_shape_section},
+    shape_sections,
+    std::tuple{&grid_section, &ghost_penalty_section, &objective_section, &objective_term_sections,
+               &constraint_sections, &volume_section, &optimizer_section, &output_section,
+               &expectation_sections});
+
+/// Calls visit(section) for the arrays of shapes.
 template <class Visitor>
 void for_each_shape_section(Visitor&& visit) {
-  visit(circle_shape_sections());
-  visit(ellipse_shape_sections());
-  visit(slot_shape_sections());
-  visit(polygon_shape_sections());
-  visit(annulus_shape_sections());
-  visit(spoke_shape_sections());
-  visit(file_shape_sections());
-  visit(picture_shape_sections());
+  std::apply([&](const auto... section) { (visit(section()), ...); }, shape_sections);
 }
 
-/// Calls visit(section) for every Section and SectionArray, in the order of the file.
+/// Calls visit(section) for all sections.
 template <class Visitor>
 void for_each_section(Visitor&& visit) {
-  visit(general_section());
-  visit(wheel_section());
-  visit(material_section());
-  visit(material_layer_sections());
-  visit(load_section());
-  visit(load_case_sections());
-  visit(contact_section());
-  visit(ring_sections());
-  visit(circle_sections());
-  visit(sphere_sections());
-  visit(tapered_sections());
-  visit(saved_shape_section());
-  for_each_shape_section(visit);
-  visit(grid_section());
-  visit(ghost_penalty_section());
-  visit(objective_section());
-  visit(objective_term_sections());
-  visit(constraint_sections());
-  visit(volume_section());
-  visit(optimizer_section());
-  visit(output_section());
-  visit(expectation_sections());
+  std::apply([&](const auto... section) { (visit(section()), ...); }, all_sections);
+}
+
+template <class Getter, class... Getters>
+constexpr bool is_one_of(const std::tuple<Getters...>&) {
+  return (std::same_as<Getter, Getters> || ...);
+}
+
+/// The Section or SectionArray of the case file that sets the members of Struct.
+template <class Struct>
+const auto& section_of() {
+  using OfTable = const Section<Struct>& (*)();
+  using OfArray = const SectionArray<Struct>& (*)();
+  if constexpr (is_one_of<OfTable>(all_sections))
+    return std::get<OfTable>(all_sections)();
+  else
+    return std::get<OfArray>(all_sections)();
 }
 
 /// The same with the sections as this case has them: those of loads with the keys that a program has added.

@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "wheelwright/base/text.h"
+#include "wheelwright/case/bound_key.h"
 #include "wheelwright/case/case_key.h"
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/fitting_grid.h"
@@ -168,40 +169,38 @@ std::optional<Complaint> read_number(const toml::node& node, std::string_view un
   return {};
 }
 
-template <class Struct, class Field>
-requires std::same_as<Field, NumberField<Struct>> || std::same_as<Field, OptionalNumberField<Struct>>
-    std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key, const Field& field,
-                                        Struct& out) {
+template <class Field>
+requires std::same_as<Field, NumberField<BoundTable>> || std::same_as<Field, OptionalNumberField<BoundTable>>
+    std::optional<Complaint> read_field(const toml::node& node, const BoundKey& key, const Field& field) {
   double value = 0;
   auto complaint = read_number(node, key.unit, field.range, value);
-  if (!complaint) field.member.in(out) = value * field.factor;
+  if (!complaint) field.member.value() = value * field.factor;
   return complaint;
 }
 
-template <class Struct, class Field>
-requires std::same_as<Field, IntegerField<Struct>> || std::same_as<Field, OptionalIntegerField<Struct>>
-    std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key, const Field& field,
-                                        Struct& out) {
+template <class Field>
+requires std::same_as<Field, IntegerField<BoundTable>> ||
+    std::same_as<Field, OptionalIntegerField<BoundTable>>
+        std::optional<Complaint> read_field(const toml::node& node, const BoundKey& key, const Field& field) {
   if constexpr (requires { field.default_word; })
     if (!field.default_word.empty() && node.value<std::string>() == field.default_word) {
-      field.member.in(out) = std::nullopt;
+      field.member.value() = std::nullopt;
       return {};
     }
   if (!node.is_integer()) return wrong_type("a whole number", "write it without quotes or decimal point");
   double value = 0;
   auto complaint = read_number(node, key.unit, field.range, value);
-  if (!complaint) field.member.in(out) = static_cast<int>(value);
+  if (!complaint) field.member.value() = static_cast<int>(value);
   return complaint;
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
-                                    const TextField<Struct>& field, Struct& out) {
+std::optional<Complaint> read_field(const toml::node& node, const BoundKey&,
+                                    const TextField<BoundTable>& field) {
   const auto value = node.value<std::string>();
   if (!value) return wrong_type("text", "put it in quotes");
   if (!keeps(field.rule, *value))
     return Complaint{Kind::out_of_range, fmt::format("must be {}", rule_text(field.rule)), ""};
-  field.member.in(out) = *value;
+  field.member.value() = *value;
   return {};
 }
 
@@ -214,24 +213,21 @@ std::optional<Complaint> read_point(const toml::node& node, std::string_view uni
   return {};
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
-                                    const PointField<Struct>& field, Struct& out) {
-  return read_point(node, key.unit, field.range, field.member.in(out));
+std::optional<Complaint> read_field(const toml::node& node, const BoundKey& key,
+                                    const PointField<BoundTable>& field) {
+  return read_point(node, key.unit, field.range, field.member.value());
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
-                                    const OptionalPointField<Struct>& field, Struct& out) {
+std::optional<Complaint> read_field(const toml::node& node, const BoundKey& key,
+                                    const OptionalPointField<BoundTable>& field) {
   std::array<double, 2> point{};
   auto complaint = read_point(node, key.unit, field.range, point);
-  if (!complaint) field.member.in(out) = point;
+  if (!complaint) field.member.value() = point;
   return complaint;
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
-                                    const PointsField<Struct>& field, Struct& out) {
+std::optional<Complaint> read_field(const toml::node& node, const BoundKey& key,
+                                    const PointsField<BoundTable>& field) {
   const toml::array* array = node.as_array();
   const auto is_point = [](const toml::node& element) {
     return element.is_array() && element.as_array()->size() == 2;
@@ -242,7 +238,7 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& k
     return Complaint{
         Kind::out_of_range,
         fmt::format("has {} points; {} to {} are accepted", array->size(), fewest_points, most_points), ""};
-  auto& points = field.member.in(out);
+  auto& points = field.member.value();
   points.assign(array->size(), {});
   for (std::size_t i = 0; i < points.size(); ++i)
     if (auto complaint = read_point((*array)[i], key.unit, field.range, points[i])) return complaint;
@@ -262,34 +258,31 @@ Expected<std::size_t, Complaint> read_word(const toml::node& node,
                    near ? fmt::format("did you mean \"{}\"?", *near) : ""};
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
-                                    const ChoiceField<Struct>& field, Struct& out) {
+std::optional<Complaint> read_field(const toml::node& node, const BoundKey&,
+                                    const ChoiceField<BoundTable>& field) {
   const auto index = read_word(node, field.words);
   if (!index) return index.failure();
-  field.set(out, static_cast<int>(*index));
+  BoundTable table;
+  field.set(table, static_cast<int>(*index));
   return {};
 }
 
-template <class Struct>
 std::optional<Complaint> read_quantity(const toml::node& node, const Quantities& quantities,
-                                       const QuantityField<Struct>& field, Struct& out) {
+                                       const QuantityField<BoundTable>& field) {
   const auto index = read_word(node, quantities.names());
   if (!index) return index.failure();
-  field.member.in(out) = quantities.begin()[static_cast<std::ptrdiff_t>(*index)];
+  field.member.value() = quantities.begin()[static_cast<std::ptrdiff_t>(*index)];
   return {};
 }
 
 /// Any value of a key.
-template <class Struct>
-std::optional<Complaint> read_field_of(const Reading& reading, const toml::node& node, const Key<Struct>& key,
-                                       Struct& out) {
+std::optional<Complaint> read_field_of(const Reading& reading, const toml::node& node, const BoundKey& key) {
   return std::visit(
       [&]<class Field>(const Field& field) {
-        if constexpr (std::same_as<Field, QuantityField<Struct>>)
-          return read_quantity(node, reading.vocabulary.quantities, field, out);
+        if constexpr (std::same_as<Field, QuantityField<BoundTable>>)
+          return read_quantity(node, reading.vocabulary.quantities, field);
         else
-          return read_field(node, key, field, out);
+          return read_field(node, key, field);
       },
       key.field);
 }
@@ -320,27 +313,23 @@ void complain_unknown(Reading& reading, std::string_view parent, const toml::key
            {Kind::unknown_key, "unknown key", remedy});
 }
 
-template <class Struct>
-std::vector<std::string_view> key_names(const std::vector<Key<Struct>>& keys) {
+std::vector<std::string_view> key_names(const BoundKeys& keys) {
   std::vector<std::string_view> names;
-  for (const auto& key : keys) names.push_back(key.name);
+  for (const BoundKey& key : keys) names.push_back(key.name);
   return names;
 }
 
-template <class Struct>
-void read_value(Reading& reading, const std::string& path, const toml::node& node, const Key<Struct>& key,
-                Struct& out) {
+void read_value(Reading& reading, const std::string& path, const toml::node& node, const BoundKey& key) {
   note(reading, path, node);
   if (key.unit == unit_of_quantity && node.is_string()) return;  // see read_quantities()
-  if (auto complaint = read_field_of(reading, node, key, out)) complain(reading, path, std::move(*complaint));
+  if (auto complaint = read_field_of(reading, node, key)) complain(reading, path, std::move(*complaint));
 }
 
 /// Reports a key that is given in addition to an earlier one of the same alternatives.
-template <class Struct>
-void check_alternatives(Reading& reading, const std::string& parent, const std::vector<Key<Struct>>& keys) {
-  for (const auto& key : keys) {
+void check_alternatives(Reading& reading, const std::string& parent, const BoundKeys& keys) {
+  for (const BoundKey& key : keys) {
     if (!reading.entries.contains(join_path(parent, key.name))) continue;
-    for (const auto& other : keys) {
+    for (const BoundKey& other : keys) {
       if (&other == &key) break;
       if (!are_alternatives(other, key) || !reading.entries.contains(join_path(parent, other.name))) continue;
       complain(reading, join_path(parent, key.name),
@@ -350,11 +339,10 @@ void check_alternatives(Reading& reading, const std::string& parent, const std::
   }
 }
 
-template <class Struct>
 void check_presence(Reading& reading, const std::string& parent, const toml::table& table,
-                    const std::vector<Key<Struct>>& keys) {
+                    const BoundKeys& keys) {
   const auto begin = table.source().begin;
-  for (const auto& key : keys) {
+  for (const BoundKey& key : keys) {
     const std::string path = join_path(parent, key.name);
     if (key.presence == Presence::required && !table.contains(key.name))
       complain(reading, path, {static_cast<int>(begin.line), static_cast<int>(begin.column), ""},
@@ -377,14 +365,13 @@ std::vector<std::string_view> table_names(std::string_view parent) {
 }
 
 /// Reads the keys of a table; the tables inside it are left to their own sections.
-template <class Struct>
 void read_table(Reading& reading, const std::string& parent, const toml::table& table,
-                const std::vector<Key<Struct>>& keys, Struct& out) {
+                const BoundKeys& keys) {
   const auto inner = table_names(parent);
   for (const auto& [name, node] : table) {
     if (std::find(inner.begin(), inner.end(), name.str()) != inner.end()) continue;
-    if (const auto* key = find_key(keys, name.str())) {
-      read_value(reading, join_path(parent, name.str()), node, *key, out);
+    if (const BoundKey* key = find_key(keys, name.str())) {
+      read_value(reading, join_path(parent, name.str()), node, *key);
     } else {
       auto candidates = key_names(keys);
       candidates.insert(candidates.end(), inner.begin(), inner.end());
@@ -411,7 +398,7 @@ const toml::table* find_table(Reading& reading, const toml::table& root, std::st
 template <class Struct>
 void read_section(Reading& reading, const toml::table& root, const Section<Struct>& section, Case& out) {
   const toml::table* table = section.name.empty() ? &root : find_table(reading, root, section.name);
-  if (table) read_table(reading, std::string(section.name), *table, section.keys, section.in(out));
+  if (table) read_table(reading, std::string(section.name), *table, bound(section.keys, section.in(out)));
 }
 
 template <class Struct>
@@ -436,15 +423,14 @@ void read_section(Reading& reading, const toml::table& root, const SectionArray<
     const std::string path = fmt::format("{}[{}]", section.path(), list.size());
     const auto [line, column] = node_place(element);
     reading.entries[path] = {line, column, ""};
-    read_table(reading, path, *element.as_table(), section.keys, list.back());
+    read_table(reading, path, *element.as_table(), bound(section.keys, list.back()));
   }
 }
 
 /// Reports keys in a table that may contain only arrays of tables.
-template <class Struct>
-void read_parent(Reading& reading, const toml::table& root, std::string_view name, Struct& out) {
+void read_parent(Reading& reading, const toml::table& root, std::string_view name) {
   if (const toml::table* table = find_table(reading, root, name))
-    read_table(reading, std::string(name), *table, std::vector<Key<Struct>>{}, out);
+    read_table(reading, std::string(name), *table, {});
 }
 
 /// Quoted values of a section's `quantity`, whose units depend on other keys.
@@ -454,7 +440,7 @@ void read_quantities(Reading& reading, const toml::table& root, const SectionArr
   const toml::array* array = root[section.name].as_array();
   auto& list = section.in(c);
   for (std::size_t i = 0; array && i < list.size(); ++i)
-    for (const auto& key : section.keys) {
+    for (const BoundKey& key : bound(section.keys, list[i])) {
       const toml::table& table = *(*array)[i].as_table();
       const auto text =
           key.unit == unit_of_quantity ? table[key.name].template value_exact<std::string>() : std::nullopt;
@@ -469,7 +455,7 @@ void read_quantities(Reading& reading, const toml::table& root, const SectionArr
                                                     fmt::join(units_like(unit<3>(kind)), ", "))));
       } else if (!value) {
         complain(reading, path, unknown_unit(*given, units_like(unit<3>(kind))));
-      } else if (auto complaint = read_field_of(reading, toml::value<double>(*value), key, list[i])) {
+      } else if (auto complaint = read_field_of(reading, toml::value<double>(*value), key)) {
         complain(reading, path, std::move(*complaint));
       }
     }
@@ -491,7 +477,7 @@ Case read_root(Reading& reading, const toml::table& root) {
   Case result;
   result.vocabulary = reading.vocabulary;
   result.load.own = reading.vocabulary.load_keys.usual_values();
-  read_parent(reading, root, ring_sections().parent, result.holes);
+  read_parent(reading, root, ring_sections().parent);
   for_each_section_of(result, [&](const auto& section) { read_section(reading, root, section, result); });
   read_quantities(reading, root, constraint_sections(), result);
   read_quantities(reading, root, expectation_sections(), result);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "wheelwright/case/bound_key.h"
 #include "wheelwright/case/key_value.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
@@ -16,61 +17,70 @@ namespace wheelwright {
 
 namespace {
 
+/// The keys of a table, and its quantity if it has one.
+struct BoundTableOfQuantity {
+  BoundKeys keys;
+  const Quantity* quantity = nullptr;
+};
+
+template <class Struct>
+BoundTableOfQuantity bound_table(Struct& table, const std::vector<Key<Struct>>& keys) {
+  if constexpr (requires { table.quantity; })
+    return {bound(keys, table), &table.quantity};
+  else
+    return {bound(keys, table)};
+}
+
 /// One overload per kind of field; returns whether the field accepts the number.
-template <class Struct, class Field>
-std::optional<std::string> set_field(Struct& out, const Key<Struct>& key, const Field& field, double value) {
+template <class Field>
+std::optional<std::string> set_field(const BoundKey& key, const Field& field, double value) {
   if constexpr (
-      !requires { field.range; } || requires { field.member.in(out) = std::array<double, 2>{}; } ||
-      requires { field.member.in(out).push_back({}); }) {
+      !requires { field.range; } || requires { field.member.value() = std::array<double, 2>{}; } ||
+      requires { field.member.value().push_back({}); }) {
     return fmt::format("{} is not a number", key.name);
   } else {
     if (!field.range.contains(value))
       return fmt::format("{} = {} is out of range: {}{}{}", key.name, number_text(value), field.range.text(),
                          key.unit.empty() ? "" : " ", key.unit);
     if constexpr (requires { field.factor; }) {
-      field.member.in(out) = value * field.factor;
+      field.member.value() = value * field.factor;
     } else {
       if (value != std::round(value))
         return fmt::format("{} = {} must be a whole number", key.name, number_text(value));
-      field.member.in(out) = static_cast<int>(value);
+      field.member.value() = static_cast<int>(value);
     }
     return {};
   }
 }
 
 /// The value in the unit of the key in a case file; nothing if the given unit does not fit.
-template <class Struct>
-std::optional<double> in_unit_of_key(const Struct& table, const Key<Struct>& key, const ValueWithUnit& given,
-                                     const Wheel& wheel) {
+std::optional<double> in_unit_of_key(const BoundTableOfQuantity& table, const BoundKey& key,
+                                     const ValueWithUnit& given, const Wheel& wheel) {
   if (given.unit.empty()) return given.value;
-  if constexpr (requires { table.quantity; })
-    if (key.unit == unit_of_quantity)
-      return in_file_unit(given, kind(table.quantity), wheel.dimension, wheel.width);
+  if (table.quantity && key.unit == unit_of_quantity)
+    return in_file_unit(given, kind(*table.quantity), wheel.dimension, wheel.width);
   return converted(given, key.unit);
 }
 
-template <class Struct>
-std::vector<std::string_view> fitting_units(const Struct& table, const Key<Struct>& key) {
-  if constexpr (requires { table.quantity; })
-    if (key.unit == unit_of_quantity) return units_like(unit<3>(kind(table.quantity)));
+std::vector<std::string_view> fitting_units(const BoundTableOfQuantity& table, const BoundKey& key) {
+  if (table.quantity && key.unit == unit_of_quantity) return units_like(unit<3>(kind(*table.quantity)));
   return units_like(key.unit);
 }
 
 /// Nothing if the table has no such key.
-template <class Struct>
-std::optional<std::optional<std::string>> set_in_table(Struct& out, const std::vector<Key<Struct>>& keys,
+std::optional<std::optional<std::string>> set_in_table(const BoundTableOfQuantity& table,
                                                        const std::string& name, const ValueWithUnit& given,
                                                        const Wheel& wheel) {
-  const Key<Struct>* key = find_key(keys, name);
+  const BoundKey* key = find_key(table.keys, name);
   if (!key) return {};
-  const auto in_unit = in_unit_of_key(out, *key, given, wheel);
+  const auto in_unit = in_unit_of_key(table, *key, given, wheel);
   if (!in_unit)
     return fmt::format("{} is not a unit of {}; units that fit: {}", given.unit, name,
-                       fmt::join(fitting_units(out, *key), ", "));
+                       fmt::join(fitting_units(table, *key), ", "));
   const double value = *in_unit;
-  auto problem =
-      std::visit([&](const auto& field) { return set_field(out, *key, field, value); }, key->field);
-  if (!problem) reset_alternatives(out, keys, *key);
+  auto problem = std::visit([&](const auto& field) { return set_field(*key, field, value); }, key->field);
+  BoundTable any;
+  if (!problem) reset_alternatives(any, table.keys, *key);
   return problem;
 }
 
@@ -103,9 +113,9 @@ std::optional<std::string> set_number(Case& c, const std::string& path, double v
       auto& list = section.in(c);
       for (std::size_t i = 0; i < list.size(); ++i)
         if (table == fmt::format("{}[{}]", section.path(), i + 1))
-          outcome = set_in_table(list[i], section.keys, name, given, c.wheel);
+          outcome = set_in_table(bound_table(list[i], section.keys), name, given, c.wheel);
     } else if (table == section.name && !outcome) {
-      outcome = set_in_table(section.in(c), section.keys, name, given, c.wheel);
+      outcome = set_in_table(bound_table(section.in(c), section.keys), name, given, c.wheel);
     }
   });
   if (outcome) return *outcome;

@@ -9,6 +9,7 @@
 #include <map>
 #include <type_traits>
 
+#include "wheelwright/case/bound_key.h"
 #include "wheelwright/case/key_value.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
@@ -47,73 +48,59 @@ std::string quotient_text(double value, double factor) {
 
 // One function per field type: the value as TOML, empty if the field has none.
 
-template <class Struct>
-std::string value_text(const NumberField<Struct>& field, const Struct& s) {
-  return quotient_text(field.member.in(s), field.factor);
+std::string value_text(const NumberField<BoundTable>& field) {
+  return quotient_text(field.member.value(), field.factor);
 }
 
-template <class Struct>
-std::string value_text(const OptionalNumberField<Struct>& field, const Struct& s) {
-  const auto& value = field.member.in(s);
+std::string value_text(const OptionalNumberField<BoundTable>& field) {
+  const auto& value = field.member.value();
   return value ? quotient_text(*value, field.factor) : "";
 }
 
-template <class Struct>
-std::string value_text(const IntegerField<Struct>& field, const Struct& s) {
-  return fmt::format("{}", field.member.in(s));
+std::string value_text(const IntegerField<BoundTable>& field) {
+  return fmt::format("{}", field.member.value());
 }
 
-template <class Struct>
-std::string value_text(const OptionalIntegerField<Struct>& field, const Struct& s) {
-  const auto& value = field.member.in(s);
+std::string value_text(const OptionalIntegerField<BoundTable>& field) {
+  const auto& value = field.member.value();
   if (!value) return field.default_word.empty() ? "" : in_quotes(field.default_word);
   return fmt::format("{}", *value);
 }
 
-template <class Struct>
-std::string value_text(const TextField<Struct>& field, const Struct& s) {
-  const std::string& value = field.member.in(s);
+std::string value_text(const TextField<BoundTable>& field) {
+  const std::string& value = field.member.value();
   return value.empty() && !field.default_text.empty() ? "" : in_quotes(value);
 }
 
-template <class Struct>
-std::string value_text(const PointField<Struct>& field, const Struct& s) {
-  const auto [x, y] = field.member.in(s);
+std::string value_text(const PointField<BoundTable>& field) {
+  const auto [x, y] = field.member.value();
   return fmt::format("[{}, {}]", number_text(x), number_text(y));
 }
 
-template <class Struct>
-std::string value_text(const OptionalPointField<Struct>& field, const Struct& s) {
-  const auto& point = field.member.in(s);
+std::string value_text(const OptionalPointField<BoundTable>& field) {
+  const auto& point = field.member.value();
   return point ? fmt::format("[{}, {}]", number_text((*point)[0]), number_text((*point)[1])) : "";
 }
 
-template <class Struct>
-std::string value_text(const PointsField<Struct>& field, const Struct& s) {
+std::string value_text(const PointsField<BoundTable>& field) {
   std::vector<std::string> points;
-  for (const auto& [x, y] : field.member.in(s))
+  for (const auto& [x, y] : field.member.value())
     points.push_back(fmt::format("[{}, {}]", number_text(x), number_text(y)));
   return fmt::format("[{}]", fmt::join(points, ", "));
 }
 
-template <class Struct>
-std::string value_text(const ChoiceField<Struct>& field, const Struct& s) {
-  return in_quotes(field.words[field.get(s)]);
+std::string value_text(const ChoiceField<BoundTable>& field) { return in_quotes(field.words[field.get({})]); }
+
+std::string value_text(const QuantityField<BoundTable>& field) {
+  return in_quotes(name(field.member.value()));
 }
 
-template <class Struct>
-std::string value_text(const QuantityField<Struct>& field, const Struct& s) {
-  return in_quotes(name(field.member.in(s)));
-}
-
-template <class Struct>
-std::string value_text(const Key<Struct>& key, const Struct& s) {
-  return std::visit([&](const auto& field) { return value_text(field, s); }, key.field);
+std::string value_text(const BoundKey& key) {
+  return std::visit([](const auto& field) { return value_text(field); }, key.field);
 }
 
 /// The values that a key accepts, in words.
-template <class Struct>
-std::string accepted_text(const Key<Struct>& key) {
+std::string accepted_text(const BoundKey& key) {
   return std::visit(
       [](const auto& field) -> std::string {
         if constexpr (requires { field.words; })
@@ -132,8 +119,7 @@ std::string accepted_text(const Key<Struct>& key) {
 }
 
 /// The meaning of an absent key, if that is not simply a value; empty otherwise.
-template <class Struct>
-std::string default_text(const Key<Struct>& key) {
+std::string default_text(const BoundKey& key) {
   return std::visit(
       [](const auto& field) -> std::string {
         if constexpr (requires { field.default_text; })
@@ -145,17 +131,15 @@ std::string default_text(const Key<Struct>& key) {
 }
 
 /// Whether the default of an absent key is fitted to other keys.
-template <class Struct>
-bool is_fitted(const Key<Struct>& key) {
-  return std::holds_alternative<IntegerField<Struct>>(key.field) && !default_text(key).empty();
+bool is_fitted(const BoundKey& key) {
+  return std::holds_alternative<IntegerField<BoundTable>>(key.field) && !default_text(key).empty();
 }
 
-template <class Struct>
-std::string resolved_lines(const std::vector<Key<Struct>>& keys, const Struct& s) {
+std::string resolved_lines(const BoundKeys& keys) {
   std::string result;
-  for (const auto& key : keys) {
-    if (is_superseded(keys, key, s)) continue;
-    const std::string value = value_text(key, s);
+  for (const BoundKey& key : keys) {
+    if (is_superseded(keys, key, BoundTable{})) continue;
+    const std::string value = value_text(key);
     result += value.empty() ? fmt::format("# {}: {}\n", key.name, default_text(key))
                             : fmt::format("{} = {}\n", key.name, value);
   }
@@ -163,8 +147,7 @@ std::string resolved_lines(const std::vector<Key<Struct>>& keys, const Struct& s
 }
 
 /// The comment above a key of the template, e.g. "E [Pa; 0 < value <= 10e12]".
-template <class Struct>
-std::string comment(const Key<Struct>& key) {
+std::string comment(const BoundKey& key) {
   const std::string instead = key.instead_of.empty() ? "" : fmt::format(", instead of {}", key.instead_of);
   const std::string unit = key.unit.empty() ? "" : fmt::format("{}; ", key.unit);
   const std::string text = default_text(key);
@@ -172,11 +155,10 @@ std::string comment(const Key<Struct>& key) {
   return fmt::format("{}{} [{}{}{}]", key.meaning, instead, unit, accepted_text(key), absent);
 }
 
-template <class Struct>
-std::string template_lines(const std::vector<Key<Struct>>& keys, const Struct& s) {
+std::string template_lines(const BoundKeys& keys) {
   std::string result;
-  for (const auto& key : keys) {
-    const std::string value = value_text(key, s);
+  for (const BoundKey& key : keys) {
+    const std::string value = value_text(key);
     const bool off = value.empty() || !key.instead_of.empty() || is_fitted(key);
     const std::string right_side = value.empty() ? "" : " " + value;
     result += fmt::format("# {}\n{}{} ={}\n", comment(key), off ? "#" : "", key.name, right_side);
@@ -198,14 +180,14 @@ std::string commented_out(const std::string& lines) {
 template <class Struct>
 std::string resolved_text(const Section<Struct>& section, const Case& c) {
   const std::string header = section.name.empty() ? "" : fmt::format("\n[{}]\n", section.name);
-  return header + resolved_lines(section.keys, section.of(c));
+  return header + resolved_lines(bound(section.keys, section.of(c)));
 }
 
 template <class Struct>
 std::string resolved_text(const SectionArray<Struct>& section, const Case& c) {
   std::string result;
   for (const Struct& element : section.of(c))
-    result += fmt::format("\n[[{}]]\n{}", section.path(), resolved_lines(section.keys, element));
+    result += fmt::format("\n[[{}]]\n{}", section.path(), resolved_lines(bound(section.keys, element)));
   return result;
 }
 
@@ -221,7 +203,8 @@ std::string resolved_shapes(const Case& c) {
   std::map<int, std::string> tables;
   for_each_shape_section([&](const auto& section) {
     for (const auto& shape : section.of(c))
-      tables[shape.order] += fmt::format("\n[[{}]]\n{}", section.path(), resolved_lines(section.keys, shape));
+      tables[shape.order] +=
+          fmt::format("\n[[{}]]\n{}", section.path(), resolved_lines(bound(section.keys, shape)));
   });
   std::string result;
   for (const auto& [order, table] : tables) result += table;
@@ -232,14 +215,14 @@ template <class Struct>
 std::string template_text(const Section<Struct>& section, const Case& c) {
   const std::string header =
       section.name.empty() ? "" : fmt::format("\n# {}\n[{}]\n", section.meaning, section.name);
-  return header + template_lines(section.keys, section.of(c));
+  return header + template_lines(bound(section.keys, section.of(c)));
 }
 
 template <class Struct>
 std::string template_text(const SectionArray<Struct>& section, const Case& c) {
   std::string result = fmt::format("\n# {}\n", section.meaning);
   const auto block = [&](const Struct& s) {
-    return fmt::format("[[{}]]\n{}", section.path(), template_lines(section.keys, s));
+    return fmt::format("[[{}]]\n{}", section.path(), template_lines(bound(section.keys, s)));
   };
   for (const Struct& element : section.of(c)) result += block(element);
   return section.of(c).empty() ? result + commented_out(block(section.example)) : result;
@@ -258,23 +241,21 @@ std::string capitalized(std::string_view text) {
   return result;
 }
 
-template <class Struct>
-std::string default_cell(const Key<Struct>& key, const Struct& defaults) {
+std::string default_cell(const BoundKey& key) {
   if (key.presence == Presence::required) return "required";
   if (std::string text = default_text(key); !text.empty()) return text;
   if (!key.instead_of.empty()) return fmt::format("`{}` is used", key.instead_of);
-  return fmt::format("`{}`", value_text(key, defaults));
+  return fmt::format("`{}`", value_text(key));
 }
 
-template <class Struct>
-std::string reference_table(const std::vector<Key<Struct>>& keys, const Struct& defaults) {
+std::string reference_table(const BoundKeys& keys) {
   std::string result = "| key | unit | accepted | default | meaning |\n|---|---|---|---|---|\n";
-  for (const auto& key : keys) {
+  for (const BoundKey& key : keys) {
     const std::string instead =
         key.instead_of.empty() ? "" : fmt::format("; instead of `{}`", key.instead_of);
     result +=
         fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, key.unit, markdown_cell(accepted_text(key)),
-                    markdown_cell(default_cell(key, defaults)), markdown_cell(key.meaning), instead);
+                    markdown_cell(default_cell(key)), markdown_cell(key.meaning), instead);
   }
   return result;
 }
@@ -284,14 +265,16 @@ std::string reference_text(const Section<Struct>& section) {
   const std::string header =
       section.name.empty() ? std::string("## Top of the file\n\n")
                            : fmt::format("\n## [{}]\n\n{}.\n\n", section.name, capitalized(section.meaning));
-  return header + reference_table(section.keys, section.of(Case{}));
+  const Case defaults;
+  return header + reference_table(bound(section.keys, section.of(defaults)));
 }
 
 template <class Struct>
 std::string reference_text(const SectionArray<Struct>& section) {
+  const Struct defaults{};
   return fmt::format("\n## [[{0}]]\n\n{1}. For example:\n\n```toml\n[[{0}]]\n{2}```\n\n{3}", section.path(),
-                     capitalized(section.meaning), resolved_lines(section.keys, section.example),
-                     reference_table(section.keys, Struct{}));
+                     capitalized(section.meaning), resolved_lines(bound(section.keys, section.example)),
+                     reference_table(bound(section.keys, defaults)));
 }
 
 /// What a key of quantities accepts.

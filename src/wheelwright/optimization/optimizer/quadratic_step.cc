@@ -93,7 +93,7 @@ QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
                                   ShiftedHessian::scale(model.products, model.first_move, model.n_pairs));
   if (!(natural > 0)) return quadratic_step(model, 1);
   if (model.n_pairs > 0) {
-    const auto whole = quadratic_step(model, 0);
+    auto whole = quadratic_step(model, 0);
     if (length(whole.coefficients) <= radius) return whole;
   }
   // 1 / length is nearly linear in the shift. The search is for its root between a shift that is too small
@@ -105,7 +105,7 @@ QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
   std::optional<QuadraticStep> best;
   double shift = natural;
   for (int k = 0; k < max_searches; ++k) {
-    const auto step = quadratic_step(model, shift);
+    auto step = quadratic_step(model, shift);
     const double reached = length(step.coefficients);
     const Point point{shift, 1 / reached - 1 / (std::sqrt(near) * radius)};
     if (reached <= radius) {
