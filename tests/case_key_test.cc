@@ -43,9 +43,11 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
   const Wheel w;
   const auto& [dimension, inner, outer, width, sectors, sides] = w;
   expect_keys(w, dimension, inner, outer, width, sectors, sides);
-  const Material m;
-  const auto& [modulus, ratio, plane, density] = m;
-  expect_keys(m, modulus, ratio, plane, density);
+  const RingMaterial m;
+  const auto& [modulus, ratio, plane, density] = static_cast<const Material&>(m);
+  const auto& [e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz] =
+      static_cast<const OrthotropicConstants&>(m);
+  expect_keys(m, modulus, ratio, plane, density, e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz);
   const Load l;
   const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, positions, own, cases] =
       l;
