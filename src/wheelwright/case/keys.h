@@ -208,6 +208,7 @@ const Section<Case>& general_section();
 const Section<Wheel>& wheel_section();
 const Section<RingMaterial>& material_section();
 const SectionArray<MaterialLayer>& material_layer_sections();
+const SectionArray<MaterialCord>& material_cord_sections();
 const Section<Load>& load_section();
 const SectionArray<CaseLoad>& load_case_sections();
 /// The same with the own keys of this load.
@@ -245,7 +246,7 @@ constexpr std::tuple shape_sections{&circle_shape_sections,  &ellipse_shape_sect
 /// Every Section and SectionArray, in the order of the file.
 constexpr std::tuple all_sections = std::tuple_cat(
     std::tuple{&general_section, &wheel_section, &material_section, &material_layer_sections,
-               static_cast<const Section<Load>& (*)()>(&load_section),
+               &material_cord_sections, static_cast<const Section<Load>& (*)()>(&load_section),
                static_cast<const SectionArray<CaseLoad>& (*)()>(&load_case_sections), &contact_section,
                &ring_sections, &circle_sections, &sphere_sections, &tapered_sections, &saved_shape_section},
     shape_sections,
