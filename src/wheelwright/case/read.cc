@@ -271,6 +271,27 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
   return {};
 }
 
+/// Kept as it is written.
+template <class Struct, class Field>
+std::optional<Complaint> read_kept_word(const toml::node& node, const Field& field, Struct& out) {
+  const auto index = read_word(node, field.words);
+  if (!index) return index.failure();
+  field.member.in(out) = std::string(field.words[*index]);
+  return {};
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
+                                    const WordField<Struct>& field, Struct& out) {
+  return read_kept_word(node, field, out);
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
+                                    const OptionalWordField<Struct>& field, Struct& out) {
+  return read_kept_word(node, field, out);
+}
+
 template <class Struct>
 std::optional<Complaint> read_quantity(const toml::node& node, const Quantities& quantities,
                                        const QuantityField<Struct>& field, Struct& out) {

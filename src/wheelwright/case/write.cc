@@ -90,6 +90,7 @@ std::string value_text(const OptionalPointField<Struct>& field, const Struct& s)
 
 template <class Struct>
 std::string value_text(const PointsField<Struct>& field, const Struct& s) {
+  if (field.member.in(s).empty()) return "";
   std::vector<std::string> points;
   for (const auto& [x, y] : field.member.in(s))
     points.push_back(fmt::format("[{}, {}]", number_text(x), number_text(y)));
@@ -99,6 +100,17 @@ std::string value_text(const PointsField<Struct>& field, const Struct& s) {
 template <class Struct>
 std::string value_text(const ChoiceField<Struct>& field, const Struct& s) {
   return in_quotes(field.words[field.get(s)]);
+}
+
+template <class Struct>
+std::string value_text(const WordField<Struct>& field, const Struct& s) {
+  return in_quotes(field.member.in(s));
+}
+
+template <class Struct>
+std::string value_text(const OptionalWordField<Struct>& field, const Struct& s) {
+  const auto& word = field.member.in(s);
+  return word ? in_quotes(*word) : "";
 }
 
 template <class Struct>
