@@ -7,6 +7,7 @@
 #include "tests/support.h"
 #include "wheelwright/mechanics/contact/contact_solver.h"
 #include "wheelwright/mechanics/contact/contact_starts.h"
+#include "wheelwright/quantities/analysis/ground_pass.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
 
 namespace wheelwright {
@@ -97,6 +98,28 @@ TEST(RollingGround, ADiscBetweenTwoDrumsIsHertzs) {
     EXPECT_NEAR(disc.peak_pressure, p0, 5e-3 * p0) << radius;
     EXPECT_NEAR(disc.half_width, width, 5e-3 * width) << radius;
     EXPECT_NEAR(disc.approach, approach, 2e-3 * approach) << radius;
+  }
+}
+
+// A ring that fits closely into a drum, and one on a drum, against the exact solution.
+TEST(RollingGround, ARingOnAndInADrumIsThatOfTheSeries) {
+  const Material material{200e6, 0.3};
+  RollingModel<2> model = paper_model(28, 384);
+  model.materials = material;
+  model.n_positions = 1;
+  for (const auto& [radius, half_angle, levels] :
+       {std::tuple{-0.36, 0.3, 1}, {-0.4, 0.1, 3}, {0.5, 0.03, 4}}) {
+    const auto exact = testing::RollingRingSeries(0.20, 0.34, material, 1 / radius).at(half_angle);
+    model.ground = radius < 0 ? Ground::internal_drum(-radius) : Ground::drum(radius);
+    model.load = exact.load;
+    model.tread.levels = levels;
+    const auto s = RollingProblem<2>::create(model)->solve(testing::holes(model.grid, 2, {}));
+    ASSERT_TRUE(s) << radius << ": " << s.failure().detail;
+    double peak = 0;
+    for (const auto& traction : s->states[0].traction) peak = std::max(peak, -traction[0]);
+    EXPECT_NEAR(s->states[0].rim.towards_ground / exact.travel, 1, 1e-3) << radius;
+    EXPECT_NEAR(s->strain_energy[0] / exact.strain_energy, 1, 2e-3) << radius;
+    EXPECT_NEAR(peak / exact.peak_pressure, 1, 0.02) << radius;
   }
 }
 
@@ -281,6 +304,37 @@ TEST(RollingGround, StatesOnOtherGroundsAgreeWithTheirOwnSolver) {
       EXPECT_NEAR((*other)->contacts()[i].travel() / travel, 1, 1e-9) << name;
       EXPECT_NEAR((*contacts)[0][i].travel() / travel, 1, 1e-9) << name;
     }
+  }
+}
+
+// The forces over the way are those of a wheel whose ground is there; behind and ahead a bar pushes in
+// opposite directions.
+TEST(RollingGround, APassIsASequenceOfGrounds) {
+  for (const std::optional<double> travel : {std::optional<double>(), std::optional(0.6e-3)}) {
+    auto model = lopsided_model(bar);
+    model.travel = travel;
+    const auto problem = RollingProblem<2>::create(model);
+    const auto psi = generic_hole(model.grid);
+    const auto state = testing::all_states<2>(*problem, psi);
+    const double step = travel ? 0.005 : 0.05;  // the axle keeps its height: the bar stays in reach
+    const std::vector<double> shifts{-step, 0, step};
+    const auto pass = ground_pass<2>(**state, shifts);
+    for (size_t k = 0; k < shifts.size(); ++k) {
+      auto there = model;
+      there.ground = Ground::bar(0.01 + shifts[k], 0.02, 0.02);
+      EXPECT_NEAR(pass[k].rise, there.ground.standing(0.34).rise, 1e-12);
+      if (travel) *there.travel += pass[k].rise - model.ground.standing(0.34).rise;
+      const auto own = testing::all_states<2>(*RollingProblem<2>::create(there), psi);
+      ASSERT_TRUE(own && pass[k].positions);
+      for (int i = 0; i < model.n_positions; ++i) {
+        const ContactSummary expected = contact_summary((*own)->contacts()[i]);
+        EXPECT_NEAR((*pass[k].positions)[i].radial_force, expected.radial_force, 1e-8 * model.load);
+        EXPECT_NEAR((*pass[k].positions)[i].friction_force, expected.friction_force, 1e-8 * model.load);
+        EXPECT_NEAR((*pass[k].positions)[i].travel, expected.travel, 1e-8 * std::abs(expected.travel));
+      }
+    }
+    if (!travel)
+      EXPECT_LT((*pass[0].positions)[0].friction_force * (*pass[2].positions)[0].friction_force, 0);
   }
 }
 

@@ -69,23 +69,24 @@ const Section<Load>& load_section() {
                       "towards larger azimuth; profile: that of ground_profile"},
           {.name = "ground_radius",
            .unit = "m",
-           .field = OptionalNumberField<Load>{&Load::ground_radius, length, "a kerb has a sharp edge"},
-           .meaning = "radius of the drum, of the bar, or of the kerb's edge"},
+           .field = OptionalNumberField<Load>{&Load::ground_radius, length, "none"},
+           .meaning = "radius of the drum, of the bar, or of the kerb's edge, which is sharp without it"},
           {.name = "ground_height",
            .unit = "m",
-           .field = OptionalNumberField<Load>{&Load::ground_height, length, "a bar lies on the ground"},
-           .meaning = "of the kerb, or of the bar's highest line, above the flat ground; a bar with half of "
-                      "its diameter is half sunk"},
+           .field = OptionalNumberField<Load>{&Load::ground_height, length, "none"},
+           .meaning = "height of the kerb, or of the bar's highest line, above the flat ground, on which the "
+                      "bar lies without it; a bar as high as its radius is half sunk"},
           {.name = "ground_place",
            .unit = "m",
            .field = NumberField<Load>{&Load::ground_place, between(-1000, 1000)},
-           .meaning = "where the bar's axis, the face of the kerb or the origin of the profile is along the "
-                      "ground, from below the axle, towards larger azimuth"},
+           .meaning =
+               "where the bar's axis, the kerb's face or the profile's origin is along the ground, from "
+               "below the axle, towards larger azimuth"},
           {.name = "ground_profile",
            .unit = "m",
            .field = PointsField<Load>{&Load::ground_profile, between(-1000, 1000), "none"},
            .meaning = "[[along, height], ...]: points of the ground, ascending along it, with straight lines "
-                      "between them and level ground beyond; heights are relative to flat ground"},
+                      "between them and level ground beyond; heights are above flat ground"},
           {.name = "positions",
            .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
            .meaning = "N_d: number of load positions per sector, any on any grid"}}};
