@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "wheelwright/base/expected.h"
+#include "wheelwright/mechanics/state/state.h"
 #include "wheelwright/quantities/analysis/rolling_measures.h"
 
 namespace wheelwright {
