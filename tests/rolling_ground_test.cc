@@ -5,10 +5,12 @@
 
 #include "tests/rolling_ring.h"
 #include "tests/support.h"
+#include "wheelwright/mechanics/contact/contact_results.h"
 #include "wheelwright/mechanics/contact/contact_solver.h"
 #include "wheelwright/mechanics/contact/contact_starts.h"
 #include "wheelwright/quantities/analysis/ground_pass.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {
