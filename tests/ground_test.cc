@@ -33,11 +33,11 @@ TEST(Ground, TheNormalIsTheGradientOfTheGap) {
     for (int k = 0; k < 200; ++k) {
       const double along = std::uniform_real_distribution<double>(-0.25, 0.25)(random),
                    height = 0.07 + std::uniform_real_distribution<double>(0, 0.1)(random), step = 1e-6;
-      const auto gap = [&](double x, double y) { return ground.nearest({x, y}).gap; };
+      const auto gap = [&on = ground](double x, double y) { return on.nearest({x, y}).gap; };
       const auto [at, tilt] = ground.nearest({along, height});
-      if (ground.nearest({along + 2 * step, height}).tilt - ground.nearest({along - 2 * step, height}).tilt >
-          1e-3)
-        continue;  // above the middle of a valley
+      const double before = ground.nearest({along - 2 * step, height}).tilt,
+                   after = ground.nearest({along + 2 * step, height}).tilt;
+      if (std::abs(after - before) > 1e-3) continue;  // above the middle of a valley
       EXPECT_NEAR((gap(along + step, height) - gap(along - step, height)) / (2 * step), -std::sin(tilt), 1e-5)
           << name << " at " << along << ", " << height;
       EXPECT_NEAR((gap(along, height + step) - gap(along, height - step)) / (2 * step), std::cos(tilt), 1e-5)
