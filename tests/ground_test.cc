@@ -82,7 +82,7 @@ TEST(Ground, AWheelTouchesItWhereItStands) {
         at = azimuth;
       }
     }
-    EXPECT_NEAR(least, 0, 1e-9) << name;
+    EXPECT_NEAR(least, 0, 3e-6) << name;  // by half the distance of the samples on an edge
     EXPECT_NEAR(at, tilt, 1e-4) << name;
   }
 }

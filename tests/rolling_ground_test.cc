@@ -187,6 +187,7 @@ TEST(RollingGround, TheForceIsTheDerivativeOfTheEnergyByTheTravel) {
     auto model = lopsided_model(ground);
     model.contact.method = ContactMethod::penalty;
     model.contact.gamma_0 = 1e3;
+    model.ghost.xi = 1e-6;  // its energy is not counted
     const auto psi = generic_hole(model.grid);
     const double travel = 0.6e-3, step = 1e-6;
     const auto at = [&](double d) {
@@ -205,7 +206,7 @@ TEST(RollingGround, TheForceIsTheDerivativeOfTheEnergyByTheTravel) {
         return s.strain_energy[i] + springs;
       };
       const double force = middle.states[i].rim_force.towards_ground;
-      EXPECT_NEAR((energy(after) - energy(before)) / (2 * step), force, 1e-4 * force) << name;
+      EXPECT_NEAR((energy(after) - energy(before)) / (2 * step), force, 1e-5 * force) << name;
     }
   }
 }
@@ -228,8 +229,8 @@ TEST(RollingGround, AProfileIsWhatItsPointsShow) {
                  flat),
       1e-12);
   std::vector<Vec<2>> points;
-  for (int k = -4000; k <= 4000; ++k) {
-    const double x = 5e-5 * k;
+  for (int k = -1000; k <= 1000; ++k) {
+    const double x = 1e-4 * k;
     points.push_back({x, std::sqrt(0.25 - x * x) - 0.5});
   }
   EXPECT_LT(difference(*solved(lopsided_model(Ground::profile(points))), *solved(lopsided_model(drum))),
@@ -349,7 +350,10 @@ TEST(RollingGround, ShapeGradientsPassTheTaylorTest) {
       for (const auto& terms : {strain_energy_alone(), WeightedSum<2>{{1, std::make_shared<Travel<2>>()}}}) {
         const auto test = generic_taylor_test(*problem, terms);
         ASSERT_TRUE(test) << name << ": " << test.failure().detail;
-        for (double order : test->orders) EXPECT_GT(order, 1.9) << name << ", theta " << theta;
+        for (double order : test->orders)
+          EXPECT_GT(order, 1.9) << name << ", theta " << theta << ": "
+                                << ::testing::PrintToString(test->orders)
+                                << ::testing::PrintToString(test->remainders) << test->value;
       }
     }
 }

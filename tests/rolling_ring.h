@@ -139,24 +139,30 @@ class RollingRingSeries {
     return half_angle * integral / (n == 0 ? 2 : 1);
   }
 
-  /// The factors of cos(m azimuth) in the radial and of sin(m azimuth) in the tangential traction of a term
-  /// of the pressure, which acts normal to the ground.
-  Polar tractions(int j, double half_angle, int m) const {
-    if (curvature_ == 0) {
+  /// The factors of cos(m azimuth) in the radial and of sin(m azimuth) in the tangential tractions of each
+  /// term of the pressure, which acts normal to the ground.
+  std::vector<Polar> tractions(int n_terms, double half_angle, int m) const {
+    std::vector<Polar> sums;
+    for (int j = 0; j < n_terms && curvature_ == 0; ++j) {
       const double before = m == 0 ? 0 : (m == 1 ? 2 : 1) * pressure_factor(j, half_angle, m - 1),
                    after = pressure_factor(j, half_angle, m + 1);
-      return {-(before + after) / 2, (before - after) / 2};
+      sums.push_back({-(before + after) / 2, (before - after) / 2});
     }
+    if (curvature_ == 0) return sums;
     constexpr int n = 1000;  // azimuth = half_angle cos(t): a trapezoidal sum, for m half_angle < 2 n
-    Polar sum{0, 0};
+    sums.resize(n_terms, {0, 0});
     for (int i = 0; i < n; ++i) {
       const double t = (i + 0.5) * std::numbers::pi / n, azimuth = half_angle * std::cos(t);
-      const double pressure = half_angle * std::sin(t) * std::sin((2 * j + 1) * t) / n;
-      const double to_normal = azimuth - tilt(azimuth);
-      sum.radial -= pressure * std::cos(to_normal) * std::cos(m * azimuth) / (m == 0 ? 2 : 1);
-      sum.tangential += pressure * std::sin(to_normal) * std::sin(m * azimuth);
+      const double to_normal = azimuth - tilt(azimuth), step = half_angle * std::sin(t) / n;
+      const double radial = step * std::cos(to_normal) * std::cos(m * azimuth) / (m == 0 ? 2 : 1),
+                   tangential = step * std::sin(to_normal) * std::sin(m * azimuth);
+      for (int j = 0; j < n_terms; ++j) {
+        const double pressure = std::sin((2 * j + 1) * t);
+        sums[j].radial -= pressure * radial;
+        sums[j].tangential += pressure * tangential;
+      }
     }
-    return sum;
+    return sums;
   }
 
   /// The resultant of the pressure towards the axle.
@@ -178,8 +184,9 @@ class RollingRingSeries {
     Matrix result(static_cast<int>(azimuths.size()), n_terms);
     for (int m = 0; m < (curvature_ == 0 ? n_harmonics : n_harmonics_on_drum); ++m) {
       const auto [under_radial, under_tangential] = displacements(m);
+      const auto of_terms = tractions(n_terms, half_angle, m);
       for (int j = 0; j < n_terms; ++j) {
-        const auto [radial, tangential] = tractions(j, half_angle, m);
+        const auto [radial, tangential] = of_terms[j];
         const double u = radial * under_radial.radial + tangential * under_tangential.radial,
                      v = radial * under_radial.tangential + tangential * under_tangential.tangential;
         for (int i = 0; i < result.rows(); ++i)

@@ -82,10 +82,17 @@ Ground::Nearest Ground::nearest(const Vec<2>& place) const {
   if (is_flat()) return {place[1], 0};
   Nearest result{std::numeric_limits<double>::infinity(), 0};
   const auto take = [&](const Nearest& candidate) {
-    if (candidate.gap < result.gap) result = candidate;
+    if (std::abs(candidate.gap) < std::abs(result.gap)) result = candidate;
   };
-  for (const Face& face : outline_->faces) take(nearest(face, place));
-  for (const Round& round : outline_->rounds) take(nearest(round, place));
+  // No part is nearest that lies further away along the ground than the ground straight below.
+  const double below = std::abs(place[1] - height(place[0]));
+  const auto may_be_nearest = [&](double from, double to) {
+    return place[0] >= from - below && place[0] <= to + below;
+  };
+  for (const Face& face : outline_->faces)
+    if (may_be_nearest(face.from[0], face.to[0])) take(nearest(face, place));
+  for (const Round& round : outline_->rounds)
+    if (may_be_nearest(round.top[0] - round.radius, round.top[0] + round.radius)) take(nearest(round, place));
   return result;
 }
 
