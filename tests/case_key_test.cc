@@ -49,9 +49,10 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
       static_cast<const OrthotropicConstants&>(m);
   expect_keys(m, modulus, ratio, plane, density, e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz);
   const Load l;
-  const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, positions, own, cases] =
-      l;
-  expect_keys(l, force, travel, along, lateral, camber, torque, body, pressure, speed, positions);
+  const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, ground, ground_radius,
+               ground_height, ground_place, ground_profile, positions, own, cases] = l;
+  expect_keys(l, force, travel, along, lateral, camber, torque, body, pressure, speed, ground, ground_radius,
+              ground_height, ground_place, ground_profile, positions);
   const Contact t;
   const auto& [with, method, theta, gamma_0, friction, points] = t;
   expect_keys(t, with, method, theta, gamma_0, friction, points);
@@ -82,8 +83,10 @@ TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
 
 TEST(CaseKey, EveryMemberOfAnArrayHasAKey) {
   const CaseLoad l;
-  const auto& [name, weight, force, travel, along, torque, body, pressure, speed, own] = l;
-  expect_keys(l, name, weight, force, travel, along, torque, body, pressure, speed);
+  const auto& [name, weight, force, travel, along, torque, body, pressure, speed, ground, ground_radius,
+               ground_height, ground_place, ground_profile, own] = l;
+  expect_keys(l, name, weight, force, travel, along, torque, body, pressure, speed, ground, ground_radius,
+              ground_height, ground_place, ground_profile);
   const Constraint b;
   const auto& [bounded, at_least, at_most, equals, over, load_case] = b;
   expect_keys(b, bounded, at_least, at_most, equals, over, load_case);
