@@ -119,9 +119,9 @@ TEST(RollingGround, ARingOnAndInADrumIsThatOfTheSeries) {
     ASSERT_TRUE(s) << radius << ": " << s.failure().detail;
     double peak = 0;
     for (const auto& traction : s->states[0].traction) peak = std::max(peak, -traction[0]);
-    EXPECT_NEAR(s->states[0].rim.towards_ground / exact.travel, 1, 1e-3) << radius;
-    EXPECT_NEAR(s->strain_energy[0] / exact.strain_energy, 1, 2e-3) << radius;
-    EXPECT_NEAR(peak / exact.peak_pressure, 1, 0.02) << radius;
+    EXPECT_NEAR(s->states[0].rim.towards_ground / exact.travel, 1, 1e-4) << radius;
+    EXPECT_NEAR(s->strain_energy[0] / exact.strain_energy, 1, 2e-4) << radius;
+    EXPECT_NEAR(peak / exact.peak_pressure, 1, 1e-3) << radius;
   }
 }
 
@@ -350,10 +350,9 @@ TEST(RollingGround, ShapeGradientsPassTheTaylorTest) {
       for (const auto& terms : {strain_energy_alone(), WeightedSum<2>{{1, std::make_shared<Travel<2>>()}}}) {
         const auto test = generic_taylor_test(*problem, terms);
         ASSERT_TRUE(test) << name << ": " << test.failure().detail;
-        for (double order : test->orders)
-          EXPECT_GT(order, 1.9) << name << ", theta " << theta << ": "
-                                << ::testing::PrintToString(test->orders)
-                                << ::testing::PrintToString(test->remainders) << test->value;
+        // The largest step moves a point of the ring in the drum into contact.
+        for (size_t k = 1; k < test->orders.size(); ++k)
+          EXPECT_GT(test->orders[k], 1.99) << name << ", theta " << theta;
       }
     }
 }
