@@ -6,90 +6,104 @@
 
 namespace wheelwright {
 
+namespace {
+
+std::vector<Key<Load>> ground_keys() {
+  return {
+      {.name = "ground",
+       .field = WordField<Load>{&Load::ground, {ground_words.begin(), ground_words.end()}},
+       .meaning = "the rigid ground, straight along the axle; drum: the outside of a drum or roller; "
+                  "internal_drum: the inside of a drum or ring; bar: a round bar on flat ground; kerb: a "
+                  "step up "
+                  "towards larger azimuth; profile: that of ground_profile"},
+      {.name = "ground_radius",
+       .unit = "m",
+       .field = OptionalNumberField<Load>{&Load::ground_radius, length, "none"},
+       .meaning = "radius of the drum, of the bar, or of the kerb's edge, which is sharp without it"},
+      {.name = "ground_height",
+       .unit = "m",
+       .field = OptionalNumberField<Load>{&Load::ground_height, length, "none"},
+       .meaning = "height of the kerb, or of the bar's highest line, above the flat ground, on which the "
+                  "bar lies without it; a bar as high as its radius is half sunk"},
+      {.name = "ground_place",
+       .unit = "m",
+       .field = NumberField<Load>{&Load::ground_place, between(-1000, 1000)},
+       .meaning = "where the bar's axis, the kerb's face or the profile's origin is along the ground, from "
+                  "below the axle, towards larger azimuth"},
+      {.name = "ground_profile",
+       .unit = "m",
+       .field = PointsField<Load>{&Load::ground_profile, between(-1000, 1000), "none"},
+       .meaning = "[[along, height], ...]: points of the ground, ascending along it, with straight lines "
+                  "between them and level ground beyond; heights are above flat ground"}};
+}
+
+/// With the keys of the ground before its last one.
+Section<Load> with_ground(Section<Load> section) {
+  const auto keys = ground_keys();
+  section.keys.insert(section.keys.end() - 1, keys.begin(), keys.end());
+  return section;
+}
+
+}  // namespace
+
 const Section<Load>& load_section() {
-  static const Section<Load> section{
-      .name = "load",
-      .meaning = "the load on the wheel, the same in all load positions",
-      .in = [](Case& c) -> Load& { return c.load; },
-      .keys = {
-          {.name = "mass",
-           .unit = "kg",
-           .field = NumberField<Load>{&Load::force, between(1e-9, 1e9), standard_gravity},
-           .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
-          {.name = "force",
-           .unit = "N",
-           .field = NumberField<Load>{&Load::force, between(1e-8, 1e10)},
-           .meaning = "force carried by the whole width",
-           .instead_of = "mass"},
-          {.name = "travel",
-           .unit = "m",
-           .field = OptionalNumberField<Load>{&Load::travel, above(0, 1000), "the rim carries the load"},
-           .meaning = "prescribed travel of the rim towards the ground; the force is then a result",
-           .instead_of = "mass"},
-          {.name = "horizontal_force",
-           .unit = "N",
-           .field = NumberField<Load>{&Load::horizontal_force, between(-1e10, 1e10)},
-           .meaning = "force on the rim along the ground, towards larger azimuth, on the whole width; "
-                      "if it is 0 the rim does not move along the ground"},
-          {.name = "lateral_force",
-           .unit = "N",
-           .field = NumberField<Load>{&Load::lateral_force, between(-1e10, 1e10)},
-           .meaning = "in 3D, force on the rim along the axle, towards larger z; if it is 0 the rim does "
-                      "not move along the axle"},
-          {.name = "camber",
-           .unit = "deg",
-           .field = NumberField<Load>{&Load::camber, between(-30, 30), degree_of_arc},
-           .meaning =
-               "in 3D, the angle by which the wheel leans: its side at larger z is closer to the ground"},
-          {.name = "torque",
-           .unit = "N m",
-           .field = NumberField<Load>{&Load::torque, between(-1e10, 1e10)},
-           .meaning = "driving or braking torque on the rim, towards larger azimuth, on the whole "
-                      "width; if it is 0 the rim does not turn"},
-          {.name = "body_force",
-           .unit = "N/m^3",
-           .field = PointField<Load>{&Load::body_force, between(-1e12, 1e12)},
-           .meaning = "[along, down]: force per volume of the structure, along the ground towards "
-                      "larger azimuth, and downwards; [0, 9.81 * density] is its weight"},
-          {.name = "hole_pressure",
-           .unit = "Pa",
-           .field = NumberField<Load>{&Load::hole_pressure, between(-1e12, 1e12)},
-           .meaning = "pressure p on the boundary of the holes: g_N = -p n in (1)"},
-          {.name = "speed",
-           .unit = "m/s",
-           .field = NumberField<Load>{&Load::speed, between(0, 1000)},
-           .meaning = "speed v of the axle along the ground: centrifugal load density (v / R_e)^2 r per "
-                      "volume; travel and stiffness are measured from where the rotating "
-                      "wheel stands without load; needs material.density"},
-          {.name = "ground",
-           .field = WordField<Load>{&Load::ground, {ground_words.begin(), ground_words.end()}},
-           .meaning = "the rigid ground, straight along the axle; drum: the outside of a drum or roller; "
-                      "internal_drum: the inside of a drum or ring; bar: a round bar on flat ground; kerb: a "
-                      "step up "
-                      "towards larger azimuth; profile: that of ground_profile"},
-          {.name = "ground_radius",
-           .unit = "m",
-           .field = OptionalNumberField<Load>{&Load::ground_radius, length, "none"},
-           .meaning = "radius of the drum, of the bar, or of the kerb's edge, which is sharp without it"},
-          {.name = "ground_height",
-           .unit = "m",
-           .field = OptionalNumberField<Load>{&Load::ground_height, length, "none"},
-           .meaning = "height of the kerb, or of the bar's highest line, above the flat ground, on which the "
-                      "bar lies without it; a bar as high as its radius is half sunk"},
-          {.name = "ground_place",
-           .unit = "m",
-           .field = NumberField<Load>{&Load::ground_place, between(-1000, 1000)},
-           .meaning =
-               "where the bar's axis, the kerb's face or the profile's origin is along the ground, from "
-               "below the axle, towards larger azimuth"},
-          {.name = "ground_profile",
-           .unit = "m",
-           .field = PointsField<Load>{&Load::ground_profile, between(-1000, 1000), "none"},
-           .meaning = "[[along, height], ...]: points of the ground, ascending along it, with straight lines "
-                      "between them and level ground beyond; heights are above flat ground"},
-          {.name = "positions",
-           .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
-           .meaning = "N_d: number of load positions per sector, any on any grid"}}};
+  static const Section<Load> section = with_ground(
+      {.name = "load",
+       .meaning = "the load on the wheel, the same in all load positions",
+       .in = [](Case& c) -> Load& { return c.load; },
+       .keys = {
+           {.name = "mass",
+            .unit = "kg",
+            .field = NumberField<Load>{&Load::force, between(1e-9, 1e9), standard_gravity},
+            .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
+           {.name = "force",
+            .unit = "N",
+            .field = NumberField<Load>{&Load::force, between(1e-8, 1e10)},
+            .meaning = "force carried by the whole width",
+            .instead_of = "mass"},
+           {.name = "travel",
+            .unit = "m",
+            .field = OptionalNumberField<Load>{&Load::travel, above(0, 1000), "the rim carries the load"},
+            .meaning = "prescribed travel of the rim towards the ground; the force is then a result",
+            .instead_of = "mass"},
+           {.name = "horizontal_force",
+            .unit = "N",
+            .field = NumberField<Load>{&Load::horizontal_force, between(-1e10, 1e10)},
+            .meaning = "force on the rim along the ground, towards larger azimuth, on the whole width; "
+                       "if it is 0 the rim does not move along the ground"},
+           {.name = "lateral_force",
+            .unit = "N",
+            .field = NumberField<Load>{&Load::lateral_force, between(-1e10, 1e10)},
+            .meaning = "in 3D, force on the rim along the axle, towards larger z; if it is 0 the rim does "
+                       "not move along the axle"},
+           {.name = "camber",
+            .unit = "deg",
+            .field = NumberField<Load>{&Load::camber, between(-30, 30), degree_of_arc},
+            .meaning =
+                "in 3D, the angle by which the wheel leans: its side at larger z is closer to the ground"},
+           {.name = "torque",
+            .unit = "N m",
+            .field = NumberField<Load>{&Load::torque, between(-1e10, 1e10)},
+            .meaning = "driving or braking torque on the rim, towards larger azimuth, on the whole "
+                       "width; if it is 0 the rim does not turn"},
+           {.name = "body_force",
+            .unit = "N/m^3",
+            .field = PointField<Load>{&Load::body_force, between(-1e12, 1e12)},
+            .meaning = "[along, down]: force per volume of the structure, along the ground towards "
+                       "larger azimuth, and downwards; [0, 9.81 * density] is its weight"},
+           {.name = "hole_pressure",
+            .unit = "Pa",
+            .field = NumberField<Load>{&Load::hole_pressure, between(-1e12, 1e12)},
+            .meaning = "pressure p on the boundary of the holes: g_N = -p n in (1)"},
+           {.name = "speed",
+            .unit = "m/s",
+            .field = NumberField<Load>{&Load::speed, between(0, 1000)},
+            .meaning = "speed v of the axle along the ground: centrifugal load density (v / R_e)^2 r per "
+                       "volume; travel and stiffness are measured from where the rotating "
+                       "wheel stands without load; needs material.density"},
+           {.name = "positions",
+            .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
+            .meaning = "N_d: number of load positions per sector, any on any grid"}}});
   return section;
 }
 
