@@ -36,12 +36,16 @@ Materials<dim> layered(const std::vector<std::pair<double, Material>>& layers) {
 
 LevelSet<2> full(const PolarGrid<2>& grid) { return testing::holes(grid, 2, {}); }
 
+/// The states of a shape, with the solver, which must outlive them.
 std::shared_ptr<const State<2>> solved(const RollingModel<2>& model, const LevelSet<2>& psi) {
-  const auto solver = make_solver(model);
+  using Solver = std::decay_t<decltype(*make_solver(model))>;
+  using State = std::shared_ptr<const State<2>>;
+  auto solver = make_solver(model);
   if (!solver) throw std::runtime_error(solver.failure().detail);
   const auto state = (*solver)->states(psi, (*solver)->all_positions(), Interrupt());
   if (!state) throw std::runtime_error(state.failure().detail);
-  return *state;
+  const auto both = std::make_shared<const std::pair<Solver, State>>(*std::move(solver), *state);
+  return {both, both->second.get()};
 }
 
 /// A tread bonded to a rigid ring.

