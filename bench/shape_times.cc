@@ -38,6 +38,7 @@ std::string to_json(int n_unknowns, const State<2>& states, const std::vector<Ph
 int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
   auto model = testing::paper_model(radial_cells, angular_cells);
   model.ghost = {GhostPenaltyKind::paper, 1e-3};
+  model.dilatation = DilatationKind::pointwise;
   model.n_positions = n_positions;
   const auto problem = RollingProblem<2>::create(model);
   if (!problem) {

@@ -193,7 +193,10 @@ TEST(Analysis, SolvedPositionsRepresentAll) {
 
 // A rigid turn of the material inside the rim is what the rotation measures; the paper's wheel turns little.
 TEST(Analysis, DeformationOfThePapersWheelIsSmall) {
-  const auto model = paper_model(14, 192);
+  auto model = paper_model(14, 192);
+  // The slope in the patch, its half-width by the radius, grows with the root of the load: it is not
+  // resolved.
+  model.dilatation = DilatationKind::pointwise;
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
   const auto psi = paper_holes(model.grid);
@@ -331,7 +334,7 @@ TEST(Analysis, WorkOfTheLoadIsTheStrainEnergy) {
 /// Hertz: the patch of a disc grows with the root of the load, and so does the peak pressure.
 TEST(Analysis, PatchAndPressureOfAThickRingGrowAsHertzSays) {
   RollingModel<2> model = coarse_model(1);
-  model.tread.levels = 4;
+  model.tread.levels = 5;
   const auto [problem, state, a] = analyzed(model, no_holes);
   const std::vector<double> loads{0.25 * model.load, model.load};
   const auto curve = under_loads<2>(*state, loads);
@@ -345,9 +348,11 @@ TEST(Analysis, PatchAndPressureOfAThickRingGrowAsHertzSays) {
   EXPECT_NEAR(whole.peak_pressure / (2 * model.load / (pi * half_width)), 1, 0.02);
 }
 
-/// Strain and rotation by differences of the displacement field at the quadrature points of whole cells.
+/// Strain and rotation by differences of the displacement field at the quadrature points of whole cells. The
+/// stress of a projected dilatation belongs to a cell and is no function of the strain at a point.
 TEST(Analysis, PeaksAreThoseOfTheDisplacementField) {
-  const RollingModel<2> model = coarse_model(3);
+  RollingModel<2> model = coarse_model(3);
+  model.dilatation = DilatationKind::pointwise;
   const auto [problem, state, a] = analyzed(model, no_holes);
   const Lattice<2> lattice(model.grid, model.degree);
   const auto points = unit_cell_rule<2>(model.degree + 1);

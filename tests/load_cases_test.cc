@@ -31,7 +31,7 @@ LoadCases<2> two_loads() {
   drive.n_positions = 3;
   drive.torque = 200;
   drive.tread.observes_spin = true;
-  drive.cut_points = 6;  // the derivative of an integral over cut cells is exact up to their quadrature
+  drive.cut_points = 8;  // the derivative of an integral over cut cells is exact up to their quadrature
   Material material = *drive.materials.at_tread().isotropic();
   material.density = 1200;
   drive.materials = material;

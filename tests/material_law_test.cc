@@ -131,6 +131,7 @@ RollingModel<2> wheel_of(const Materials<2>& materials) {
   RollingModel<2> model = testing::paper_model(14, 192);
   model.materials = materials;
   model.n_positions = 2;
+  model.dilatation = DilatationKind::pointwise;  // as for other laws
   return model;
 }
 

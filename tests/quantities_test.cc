@@ -142,7 +142,7 @@ TEST(Quantities, PassTheTaylorTest) {
 TEST(Quantities, PassTheTaylorTestAtFixedTravel) {
   const auto model = held_model();
   const auto functions = without(state_functions(), {"travel", "run-out harmonic", "one position"});
-  expect_second_order(model, functions, generic_hole(model.grid));
+  expect_second_order(model, functions, generic_hole(model.grid), 1e-5);
 }
 
 TEST(Quantities, PassTheTaylorTestWithFrictionAndADrivenRim) {
@@ -313,6 +313,7 @@ TEST(Quantities, SymmetricWheelNeedsHalfOfThePositions) {
 /// derivative to the shape needs no adjoint; J_e and alpha have their own.
 TEST(Quantities, TheTravelsDerivativeFollowsFromTheEnergys) {
   auto model = coarse_model();
+  model.dilatation = DilatationKind::pointwise;
   model.contact.theta_nitsche = 1;
   model.contact.gamma_0 = 1e5;
   model.ghost.xi = 1e-9;
@@ -326,8 +327,8 @@ TEST(Quantities, TheTravelsDerivativeFollowsFromTheEnergys) {
   ASSERT_TRUE(state);
   const auto evaluation = differentiate<2>(*problem, functions, psi, **state);
   ASSERT_TRUE(evaluation);
-  // The density of the energy at the moving boundary. Slivers, which the ghost penalty hardly holds here,
-  // differ.
+  // The density of the energy at the moving boundary, which is a function of the strain where the dilatation
+  // is not projected. Slivers, which the ghost penalty hardly holds here, differ.
   double sum = 0, error = 0;
   for (size_t q = 0; q < evaluation->boundary.size(); ++q) {
     double density = 0;

@@ -19,7 +19,8 @@ namespace wheelwright::testing {
 
 namespace fs = std::filesystem;
 
-/// The sections of a wheel that is solved within milliseconds.
+/// The sections of a wheel that is solved within milliseconds. On cells longer than the contact patch the
+/// energy of projected elements changes by 1e-4 when a boundary crosses a cell, which ends small steps early.
 inline const std::string small_wheel = R"(
 [wheel]
 sectors = 8
@@ -33,6 +34,7 @@ radius = 0.03
 radial_cells = 8
 angular_cells = 96
 tread_levels = 0
+dilatation = "pointwise"
 [optimizer]
 rim_band = 0.0175
 tread_band = 0.035

@@ -319,8 +319,7 @@ long long dof_bound(const Case& c) {
 double minimum_gamma_0(double theta, const Material& material, double aspect) {
   constexpr double reference = 8.8;  // (lambda + 2 mu) / E at nu = 0.48, where 10 and 100 were found
   const double stiffness = (material.lambda() + 2 * material.mu()) / material.scaling_modulus() / reference;
-  // Without the indefinite term, a projected pressure needs no more than the last material without
-  // projection.
+  // Without the indefinite term, a projected pressure needs no more as nu tends to 1/2.
   if (theta <= 0 && material.nearly_incompressible()) return 13.2 * (1 + theta) * (1 + theta);
   constexpr double per_aspect =
       0.8;  // 0.80, 0.69, 0.55 and 0.58 were found at the aspects 2.3, 4.6, 9.2 and 19

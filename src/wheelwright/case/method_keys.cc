@@ -61,7 +61,8 @@ const Section<Grid>& grid_section() {
            .field = choice<&Grid::dilatation>({"auto", "projected", "pointwise"}),
            .meaning =
                "projected: with degree = 2, the element does not lock at any Poisson's ratio; pointwise: "
-               "the element of other programs; auto: projected above a Poisson's ratio of 0.485"},
+               "the element of other programs; auto: pointwise up to a Poisson's ratio of 0.4 and in plane "
+               "stress, projected from 0.48 on, in between in part"},
           {.name = "level_set_degree",
            .field = OptionalIntegerField<Grid>{&Grid::level_set_degree, between(1, 2), "2; in 3D 1", "auto"},
            .meaning = "polynomial degree of the level set"},

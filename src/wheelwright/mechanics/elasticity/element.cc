@@ -20,10 +20,43 @@ constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
 /// the slope of div u across it. Rounding of the variance is 1e-16.
 constexpr double smallest_variance = 1e-12;
 
-/// The part of lambda that works on div u itself, in units of mu. Were it -2 / dim, nothing of the bulk
-/// modulus did: the travel would be a little more accurate, and the peak stress at holes less
-/// (docs/method.md). The same number in 2D and 3D lets both have the same plane strain.
-constexpr double pointwise_lambda = -0.6;
+/// The part of lambda that works on the projected dilatation in isotropic elements of degree 2 [Pa]; div u
+/// itself keeps the rest. By default it keeps all of it up to nu = 0.4 in plane strain or 3D, where peak
+/// stresses at edges of holes gain more than the travel loses; -0.6 mu from 0.48 on; and in between what lies
+/// between, so that no result jumps with nu. Were -2 / dim mu kept, nothing of the bulk modulus worked on
+/// div u: the travel would be a little more accurate, and the peak stress at holes less (docs/method.md). The
+/// same number in 2D and 3D lets both have the same plane strain.
+double projected_part_of_lambda(DilatationKind dilatation, const Material& material) {
+  if (dilatation == DilatationKind::pointwise) return 0;
+  constexpr double from = 0.4, to = 0.48, kept_at_first = 4, kept_at_last = -0.6;  // [mu]; 4 is all at 0.4
+  const double nu = material.plane_strain_equivalent().poissons_ratio;
+  const double progress = dilatation == DilatationKind::projected ? 1 : (nu - from) / (to - from);
+  if (progress <= 0) return 0;
+  return material.lambda() - std::lerp(kept_at_first, kept_at_last, std::min(progress, 1.0)) * material.mu();
+}
+
+/// The shape functions in the middle of the unit cell.
+template <int dim>
+const ShapeFunctions<dim>& in_the_middle(int degree) {
+  constexpr auto at = [](int of_degree) {
+    Vec<dim> middle;
+    middle.fill(0.5);
+    return ShapeFunctions<dim>(of_degree, middle);
+  };
+  static const std::array<ShapeFunctions<dim>, 2> of_degrees{at(1), at(2)};
+  return of_degrees[degree - 1];
+}
+
+/// Adds the products of the linear functions with each other, and with a number, times a weight.
+template <int dim>
+void add_to_mass(const std::array<double, dim + 1>& linear, double weight, Matrix& mass) {
+  for (int b = 0; b <= dim; ++b)
+    for (int a = 0; a <= dim; ++a) mass(a, b) += weight * linear[a] * linear[b];
+}
+template <int dim>
+void add_moments(const std::array<double, dim + 1>& linear, double weighted_number, double* moments) {
+  for (int a = 0; a <= dim; ++a) moments[a] += weighted_number * linear[a];
+}
 
 /// Strains or stresses on the dofs of a cell, [component][dof].
 template <int dim>
@@ -135,11 +168,9 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
     for (const auto& b : corners)
       plane_diameter_ = std::max(plane_diameter_, norm<2>({a[0] - b[0], a[1] - b[1]}));
   if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
-  if (const Material* material = law.isotropic();
-      material && degree == 2 &&
-      (dilatation == DilatationKind::projected ||
-       (dilatation == DilatationKind::automatic && material->nearly_incompressible()))) {
-    projected_lambda_ = material->lambda() - pointwise_lambda * material->mu();
+  const Material* material = law.isotropic();
+  if (material && degree == 2) projected_lambda_ = projected_part_of_lambda(dilatation, *material);
+  if (projects_dilatation()) {
     projected_share_ = projected_lambda_ / (material->lambda() + 2 * material->mu() / dim);
     dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2));
   }
@@ -147,9 +178,7 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
 
 template <int dim>
 std::array<double, dim + 1> ElasticElement<dim>::linear_functions(const Vec<dim>& x) const {
-  Vec<dim> middle;
-  middle.fill(0.5);
-  const Vec<dim> centre = map_.position(ShapeFunctions<dim>(degree_, middle));
+  const Vec<dim> centre = map_.position(in_the_middle<dim>(degree_));
   std::array<double, dim + 1> values{1};
   for (int d = 0; d < dim; ++d) values[d + 1] = (x[d] - centre[d]) / plane_diameter_;
   return values;
@@ -159,11 +188,9 @@ template <int dim>
 void DilatationMoments<dim>::add(const ElasticElement<dim>& element,
                                  const typename ElasticElement<dim>::Point& point, double weight) {
   const auto linear = element.linear_functions(point.position);
-  for (int a = 0; a <= dim; ++a) {
-    for (int b = 0; b <= dim; ++b) mass(a, b) += weight * linear[a] * linear[b];
-    for (int dof = 0; dof < of_dofs.columns(); ++dof)
-      of_dofs(a, dof) += weight * linear[a] * point.dilatation[dof];
-  }
+  add_to_mass<dim>(linear, weight, mass);
+  for (int dof = 0; dof < of_dofs.columns(); ++dof)
+    add_moments<dim>(linear, weight * point.dilatation[dof], of_dofs.column(dof));
 }
 
 template <int dim>
@@ -180,8 +207,19 @@ template <int dim>
 Matrix ElasticElement<dim>::project_dilatation(std::span<const ReferencePoint<dim>> part) const {
   DilatationMoments<dim> moments(n_dofs());
   for (const auto& q : part) {
-    const Point point = with_own_strain(q.xi);
-    moments.add(*this, point, q.weight * point.determinant);
+    const ShapeFunctions<dim> shape(degree_, q.xi);
+    const Mat<dim> jacobian = map_.jacobian(shape), inverse_jacobian = inverse<dim>(jacobian);
+    const double weight = q.weight * determinant<dim>(jacobian);
+    const auto linear = linear_functions(map_.position(shape));
+    add_to_mass<dim>(linear, weight, moments.mass);
+    for (int a = 0; a < n_nodes(); ++a) {
+      const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+      for (int c = 0; c < dim; ++c) {
+        double dilatation = 0;
+        for (int i = 0; i < dim; ++i) dilatation += frames_[a][i][c] * gradient[i];
+        add_moments<dim>(linear, weight * dilatation, moments.of_dofs.column(dof(a, c)));
+      }
+    }
   }
   return moments.coefficients();
 }

@@ -21,7 +21,7 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
 /// dof(). All results are in the Cartesian frame of the cell: its first axis is radial at the first azimuth
 /// of the cell.
 ///
-/// In an isotropic material most of the bulk modulus of the element of degree 2 works on div u
+/// If the dilatation is projected, most of the bulk modulus of the element of degree 2 works on div u
 /// projected in L2 on the linear functions of x, on the part of the cell that is material: the mixed element
 /// of quadratic displacement and discontinuous, linear pressure, which does not lock, with its pressure
 /// eliminated. A small part works on div u itself, without which stresses at edges of holes are less accurate

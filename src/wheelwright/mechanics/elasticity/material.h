@@ -45,7 +45,7 @@ struct Material {
   /// plane strain, E' in plane stress.
   double scaling_modulus() const { return plane_strain_equivalent().youngs_modulus; }
 
-  /// Whether nu is so close to 1/2 that elements of degree 1 are of no use, and that lambda is too large for
+  /// Whether nu is so close to 1/2 that elements that lock are of no use, and that lambda is too large for
   /// terms that only stabilize. In plane stress nu / (1 + nu) counts, which is never near 1/2.
   bool nearly_incompressible() const { return plane_strain_equivalent().poissons_ratio > 0.485; }
 

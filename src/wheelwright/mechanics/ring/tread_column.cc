@@ -322,10 +322,11 @@ class ColumnAssembly {
   /// The penalty of the traction's jump on the faces between a cell at the tread and the next ones in the
   /// column, and its mirror image beyond the middle of the wheel. Where contact fixes the normal
   /// displacement, pressures that rise with the same slope in every cell and drop between cells do no work on
-  /// it: without the penalty they grow with lambda.
+  /// it: without the penalty they grow with lambda. It has its whole weight where all of lambda is projected.
   void add_pressure_jumps(const ColumnCell<dim>& cell, int layer, int row, int across,
                           const PolarGrid<dim>& fine) {
-    constexpr double weight = 0.1;
+    const double projected = cell.element.projected_lambda(), lambda = cell.law.isotropic()->lambda();
+    const double weight = projected < lambda ? 0.1 * projected / lambda : 0.1;
     for (int axis = 1; axis < dim; ++axis) {
       const int next_across = across + (axis == 1 ? 1 : 0), next_axial = cell.axial + (axis == 2 ? 1 : 0);
       const bool at_middle = next_axial == axial_cells_ && is_half(table_.sides());
