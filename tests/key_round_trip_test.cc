@@ -54,8 +54,13 @@ std::vector<Struct> variations_of(const Struct& s, const Field& field) {
   } else if constexpr (std::is_same_v<Field, PointField<Struct>> ||
                        std::is_same_v<Field, OptionalPointField<Struct>>) {
     for (const double x : {0.28, 3.0}) add(std::array<double, 2>{x, 1.0 / 30});
+  } else if constexpr (std::is_same_v<Field, WordField<Struct>> ||
+                       std::is_same_v<Field, OptionalWordField<Struct>>) {
+    for (const std::string_view word : field.words)
+      if (field.member.in(s) != std::string(word)) add(std::string(word));
   } else if constexpr (std::is_same_v<Field, PointsField<Struct>>) {
-    add(field.member.in(s));
+    const std::vector<std::array<double, 2>> some{{-0.1, 0}, {0, 0.001}, {0.1, 0}};
+    add(field.member.in(s).empty() ? some : field.member.in(s));
     field.member.in(result[0])[1][0] += 1e-3;
   } else if constexpr (std::is_same_v<Field, QuantityField<Struct>>) {
     for (const Quantity& quantity : Quantities())
@@ -102,9 +107,14 @@ std::vector<Case> starting_points() {
     minimizing.objective.minimize = built_in("mean_travel");
     for (Case* c : {&loads, &bounded, &minimizing})
       c->constraints = {{.quantity = built_in("strain_energy"), .at_most = 5}};
+    Case kerb = plain;
+    kerb.load.ground = "kerb";
+    kerb.load.ground_radius = 0.005;
+    kerb.load.ground_height = 0.01;
+    kerb.load.ground_profile = {{-0.1, 0}, {0, 0.001}, {0.1, 0}};
     Case equal = bounded;
     equal.constraints = {{.quantity = built_in("strain_energy"), .equals = 5}};
-    cases.insert(cases.end(), {plain, frictionless, loads, bounded, minimizing, equal});
+    cases.insert(cases.end(), {plain, frictionless, loads, bounded, minimizing, equal, kerb});
   }
   return cases;
 }

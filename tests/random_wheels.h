@@ -8,6 +8,7 @@
 
 #include "wheelwright/case/case.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/ground_of.h"
 
 namespace wheelwright::testing {
 
@@ -356,6 +357,47 @@ class LayeredWheels {
   }
 
  private:
+  AnyWheels wheels_;
+  std::mt19937 random_;
+};
+
+/// The same wheels on drums, in drums, on bars, kerbs and profiles from far too small to far too large, some
+/// load cases on grounds of their own.
+class WheelsOnGrounds {
+ public:
+  explicit WheelsOnGrounds(unsigned seed) : wheels_(seed), random_(seed + 1) {}
+
+  Case draw() {
+    Case c = wheels_.draw();
+    c.contact.with = Counterpart::ground;
+    draw_ground(c, c.load);
+    for (CaseLoad& of_case : c.load.cases)
+      if (uniform(0, 1) < 0.5) draw_ground(c, of_case);
+    return c;
+  }
+
+ private:
+  double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
+  double log_uniform(double a, double b) { return std::exp(uniform(std::log(a), std::log(b))); }
+  double length(double value) { return std::clamp(value, 1e-6, 1000.0); }
+
+  template <class SomeLoad>
+  void draw_ground(const Case& c, SomeLoad& load) {
+    const double radius = c.wheel.outer_radius;
+    load.ground = std::string(ground_words[std::uniform_int_distribution<int>(0, 5)(random_)]);
+    load.ground_place = std::clamp(radius * uniform(-1.2, 1.2), -1000.0, 1000.0);
+    load.ground_radius = length(radius * log_uniform(1e-3, 1e3));
+    load.ground_height = length(radius * log_uniform(1e-4, 1));
+    if (load.ground == "internal_drum") load.ground_radius = length(radius * (1 + log_uniform(1e-3, 1e3)));
+    if (load.ground == "bar") load.ground_radius = length(*load.ground_height * uniform(0.45, 3));
+    if (load.ground == "kerb") load.ground_radius = length(*load.ground_height * uniform(0, 1.05));
+    double along = -radius;
+    while (load.ground_profile.size() < 12) {
+      load.ground_profile.push_back({along, radius * uniform(-0.02, 0.02)});
+      along += radius * uniform(0.01, 0.4);
+    }
+  }
+
   AnyWheels wheels_;
   std::mt19937 random_;
 };

@@ -242,6 +242,9 @@ TEST(AnyWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<AnyWheels>
 TEST(AnyWheels, OthersEndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<AnyWheels>(0, 300, 5); }
 TEST(AnyWheels, MoreEndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<AnyWheels>(0, 300, 21); }
 
+TEST(WheelsOnGrounds, EndSolvedOrWithAReason) { expect_a_reason_of_each<WheelsOnGrounds>(0, 8, 2); }
+TEST(WheelsOnGrounds, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<WheelsOnGrounds>(0, 300, 6); }
+
 TEST(LayeredWheels, EndSolvedOrWithAReason) { expect_a_reason_of_each<LayeredWheels>(0, 8, 3); }
 TEST(LayeredWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<LayeredWheels>(0, 300, 7); }
 

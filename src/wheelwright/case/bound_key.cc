@@ -38,6 +38,10 @@ struct FieldBinder {
   Field operator()(const PointsField<Struct>& f) const {
     return PointsField<BoundTable>{at(f.member), f.range};
   }
+  Field operator()(const WordField<Struct>& f) const { return WordField<BoundTable>{at(f.member), f.words}; }
+  Field operator()(const OptionalWordField<Struct>& f) const {
+    return OptionalWordField<BoundTable>{at(f.member), f.words, f.default_text};
+  }
   Field operator()(const ChoiceField<Struct>& f) const {
     return ChoiceField<BoundTable>{f.words, [&f, t = &table](const BoundTable&) { return f.get(*t); },
                                    [&f, t = &table](BoundTable&, int i) { f.set(*t, i); },

@@ -60,7 +60,10 @@ struct CaseLoad {
   std::optional<double> horizontal_force = {}, torque = {};
   std::optional<std::array<double, 2>> body_force = {};
   std::optional<double> hole_pressure = {}, speed = {};
-  std::vector<OwnValue<std::optional<double>>> own = {};  ///< empty, or in the order of Load::own
+  std::optional<std::string> ground = {};
+  std::optional<double> ground_radius = {}, ground_height = {}, ground_place = {};
+  std::vector<std::array<double, 2>> ground_profile = {};  ///< empty: unchanged
+  std::vector<OwnValue<std::optional<double>>> own = {};   ///< empty, or in the order of Load::own
   bool operator==(const CaseLoad&) const = default;
 };
 
@@ -68,16 +71,21 @@ struct Load {
   double force = 300 * 9.81;  ///< on the whole width [N]
   std::optional<double>
       travel;  ///< prescribed travel of the rim towards the ground [m]; if given, the force is a result
-  double horizontal_force = 0;             ///< on the rim, towards larger azimuth, on the whole width [N]
-  double lateral_force = 0;                ///< on the rim, towards larger z; in 3D [N]
-  double camber = 0;                       ///< the side at larger z nearer to the ground; in 3D [rad]
-  double torque = 0;                       ///< on the rim, towards larger azimuth, on the whole width [N m]
-  std::array<double, 2> body_force{};      ///< along the ground towards larger azimuth, and down [N/m^3]
-  double hole_pressure = 0;                ///< in the holes [Pa]
-  double speed = 0;                        ///< of the axle along the ground, for the centrifugal load [m/s]
-  int positions = 8;                       ///< N_d, load positions per sector
-  std::vector<OwnValue<double>> own = {};  ///< of the keys that a program adds
-  std::vector<CaseLoad> cases = {};        ///< empty: only this load
+  double horizontal_force = 0;          ///< on the rim, towards larger azimuth, on the whole width [N]
+  double lateral_force = 0;             ///< on the rim, towards larger z; in 3D [N]
+  double camber = 0;                    ///< the side at larger z nearer to the ground; in 3D [rad]
+  double torque = 0;                    ///< on the rim, towards larger azimuth, on the whole width [N m]
+  std::array<double, 2> body_force{};   ///< along the ground towards larger azimuth, and down [N/m^3]
+  double hole_pressure = 0;             ///< in the holes [Pa]
+  double speed = 0;                     ///< of the axle along the ground, for the centrifugal load [m/s]
+  std::string ground = "flat";          ///< its kind, one of ground_words
+  std::optional<double> ground_radius;  ///< of a drum, a bar or the edge of a kerb [m]
+  std::optional<double> ground_height;  ///< of a bar or a kerb above the level of the ground [m]
+  double ground_place = 0;              ///< of a bar, a kerb or a profile, from below the axle [m]
+  std::vector<std::array<double, 2>> ground_profile = {};  ///< [along, height], ascending [m]
+  int positions = 8;                                       ///< N_d, load positions per sector
+  std::vector<OwnValue<double>> own = {};                  ///< of the keys that a program adds
+  std::vector<CaseLoad> cases = {};                        ///< empty: only this load
   bool operator==(const Load&) const = default;
 };
 

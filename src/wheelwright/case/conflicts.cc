@@ -14,6 +14,7 @@ Conflicts conflicts(const Case& c) {
   saved_shape_conflicts(c, found);
   shape_conflicts(c, shapes, found);
   load_conflicts(c, found);
+  ground_conflicts(c, found);
   contact_conflicts(c, found);
   material_conflicts(c, found);
   dimension_conflicts(c, found);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "wheelwright/case/dimension.h"
+#include "wheelwright/case/ground_of.h"
 #include "wheelwright/case/hole_rings.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/load_values.h"
@@ -44,10 +45,17 @@ int load_case_of(const Case& c, const Expectation& expectation) {
 
 double load_per_metre(const Case& c) { return c.load.force / c.wheel.width; }
 
+double contact_radius(const Case& c) {
+  constexpr double least = 0.2;  // on edges
+  const Ground ground = ground_of(c.load);
+  const double radius = effective_radius(ground, c.wheel.outer_radius);
+  return ground.is_even() ? radius : std::max(radius, least * c.wheel.outer_radius);
+}
+
 namespace {
 
 double hertz_half_width(const Case& c, double modulus) {
-  return 2 * std::sqrt(load_per_metre(c) * c.wheel.outer_radius / (pi * modulus));
+  return 2 * std::sqrt(load_per_metre(c) * contact_radius(c) / (pi * modulus));
 }
 
 }  // namespace
@@ -66,7 +74,7 @@ double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi *
 double likely_half_width(const Case& c) {
   if (c.contact.with == Counterpart::ring) return pi * c.wheel.outer_radius;
   // A travel d makes a patch of about sqrt(0.4 R_e d): the logarithm in the compliance of a roller is near 5.
-  return c.load.travel ? std::sqrt(0.4 * c.wheel.outer_radius * *c.load.travel) : hertz_half_width(c);
+  return c.load.travel ? std::sqrt(0.4 * contact_radius(c) * *c.load.travel) : hertz_half_width(c);
 }
 
 namespace {

@@ -31,7 +31,11 @@ double load_per_metre(const Case& c);
 /// half-width to which it leads.
 double effective_contact_modulus(const Case& c);
 
-/// a = 2 sqrt(P R_e / (pi E*)) [m]: half the contact patch of a solid disc under the load, as an estimate for
+/// R in Hertz's theory: 1/R = 1/R_e + 1/R_g with the ground's radius R_g where the wheel stands, negative
+/// inside a drum; on edges, a fifth of R_e [m].
+double contact_radius(const Case& c);
+
+/// a = 2 sqrt(P R / (pi E*)) [m]: half the contact patch of a solid disc under the load, as an estimate for
 /// the wheel.
 double hertz_half_width(const Case& c);
 

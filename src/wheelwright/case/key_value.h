@@ -12,13 +12,14 @@
 
 namespace wheelwright {
 
-// The numbers and points of a struct by their keys: what copies, compares or sends all of them visits the
-// declarations.
+// The numbers, points and words of a struct by their keys: what copies, compares or sends all of them visits
+// the declarations.
 
 /// In SI units and radians, as the member has it.
-using KeyValue = std::variant<int, double, std::array<double, 2>>;
+using KeyValue =
+    std::variant<int, double, std::array<double, 2>, std::vector<std::array<double, 2>>, std::string>;
 
-/// The member of a key, if it is a number or a point, passed to visit(); it may be optional.
+/// The member of a key, if it is a number, a point, points or a word, passed to visit(); it may be optional.
 template <class Struct, class SomeStruct, class Visitor>
 void visit_value(const Key<Struct>& key, SomeStruct& s, Visitor&& visit) {
   std::visit(
@@ -28,7 +29,10 @@ void visit_value(const Key<Struct>& key, SomeStruct& s, Visitor&& visit) {
                       std::is_same_v<Field, IntegerField<Struct>> ||
                       std::is_same_v<Field, OptionalIntegerField<Struct>> ||
                       std::is_same_v<Field, PointField<Struct>> ||
-                      std::is_same_v<Field, OptionalPointField<Struct>>)
+                      std::is_same_v<Field, OptionalPointField<Struct>> ||
+                      std::is_same_v<Field, PointsField<Struct>> ||
+                      std::is_same_v<Field, WordField<Struct>> ||
+                      std::is_same_v<Field, OptionalWordField<Struct>>)
           visit(field.member.in(s));
       },
       key.field);
@@ -43,7 +47,12 @@ std::optional<KeyValue> key_value(const std::optional<Value>& value) {
   return value ? std::optional(KeyValue(*value)) : std::nullopt;
 }
 
-/// The value of a key; nothing if it is absent, or no number or point.
+/// No points are no value.
+inline std::optional<KeyValue> key_value(const std::vector<std::array<double, 2>>& points) {
+  return points.empty() ? std::nullopt : std::optional(KeyValue(points));
+}
+
+/// The value of a key; nothing if it is absent, or of another kind.
 template <class Struct>
 std::optional<KeyValue> value(const Key<Struct>& key, const Struct& s) {
   std::optional<KeyValue> result;
@@ -60,7 +69,12 @@ void assign(std::optional<Value>& member, const std::optional<KeyValue>& value) 
   member = value ? std::optional(std::get<Value>(*value)) : std::nullopt;
 }
 
-/// Sets the member of a key to a value of its type. An absent value changes optional members only.
+inline void assign(std::vector<std::array<double, 2>>& member, const std::optional<KeyValue>& value) {
+  member =
+      value ? std::get<std::vector<std::array<double, 2>>>(*value) : std::vector<std::array<double, 2>>{};
+}
+
+/// Sets the member of a key to a value of its type. An absent value changes optional members and points only.
 template <class Struct>
 void set_value(const Key<Struct>& key, Struct& s, const std::optional<KeyValue>& value) {
   visit_value(key, s, [&](auto& member) { assign(member, value); });

@@ -113,14 +113,30 @@ struct OptionalPointField {
   std::string_view default_text;
 };
 
-/// A list of at least three points.
+/// A list of at least three points; empty if it is absent.
 template <class Struct>
 struct PointsField {
   Place<Struct, std::vector<std::array<double, 2>>> member;
   Range range;
+  std::string_view default_text = {};
 };
 /// The shortest and the longest list.
 inline constexpr std::size_t fewest_points = 3, most_points = 10000;
+
+/// One of several words, kept as such.
+template <class Struct>
+struct WordField {
+  Place<Struct, std::string> member;
+  std::vector<std::string_view> words;
+};
+
+/// The same with a default described by a text.
+template <class Struct>
+struct OptionalWordField {
+  Place<Struct, std::optional<std::string>> member;
+  std::vector<std::string_view> words;
+  std::string_view default_text;
+};
 
 /// One of several words, in the order of the enumerators.
 template <class Struct>
@@ -169,7 +185,8 @@ struct Key {
   std::string_view unit = {};  ///< empty for pure numbers and words
   std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
                OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>,
-               OptionalPointField<Struct>, PointsField<Struct>, ChoiceField<Struct>, QuantityField<Struct>>
+               OptionalPointField<Struct>, PointsField<Struct>, WordField<Struct>, OptionalWordField<Struct>,
+               ChoiceField<Struct>, QuantityField<Struct>>
       field;
   std::string_view meaning;
   Presence presence = Presence::has_default;

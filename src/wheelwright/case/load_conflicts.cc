@@ -31,7 +31,7 @@ void check_load(const SingleLoad& single, Conflicts& found) {
   const Case& c = single.c;
   if (!is_overloaded(c)) return;
   const double half_width = hertz_half_width(c);
-  const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
+  const double advised = 0.1 * contact_radius(c), factor = advised / half_width;  // strains of 5 %
   if (is_overloaded_in_pascals(c)) {
     const PlacedMaterial tread = placed_materials(c).back();
     found.push_back({{tread.layer ? key_of(&MaterialLayer::youngs_modulus, *tread.layer)
@@ -46,7 +46,7 @@ void check_load(const SingleLoad& single, Conflicts& found) {
         key_of(&Wheel::outer_radius), key_of(&Material::poissons_ratio), key_of(&Material::plane)},
        fmt::format("too large: a solid disc would touch the ground on {:.3g} m and be strained by "
                    "about {:.0f} %, far beyond linear elasticity",
-                   2 * half_width, 100 * half_width / (2 * c.wheel.outer_radius)),
+                   2 * half_width, 100 * half_width / (2 * contact_radius(c))),
        fmt::format("use at most {:.3g} N, or a stiffer material", c.load.force * factor * factor)});
 }
 

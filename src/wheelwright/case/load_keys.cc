@@ -2,6 +2,7 @@
 
 #include "wheelwright/case/case_key.h"
 #include "wheelwright/case/common_keys.h"
+#include "wheelwright/case/ground_of.h"
 
 namespace wheelwright {
 
@@ -60,6 +61,32 @@ const Section<Load>& load_section() {
            .meaning = "speed v of the axle along the ground: centrifugal load density (v / R_e)^2 r per "
                       "volume; travel and stiffness are measured from where the rotating "
                       "wheel stands without load; needs material.density"},
+          {.name = "ground",
+           .field = WordField<Load>{&Load::ground, {ground_words.begin(), ground_words.end()}},
+           .meaning = "the rigid ground, straight along the axle; drum: the outside of a drum or roller; "
+                      "internal_drum: the inside of a drum or ring; bar: a round bar on flat ground; kerb: a "
+                      "step up "
+                      "towards larger azimuth; profile: that of ground_profile"},
+          {.name = "ground_radius",
+           .unit = "m",
+           .field = OptionalNumberField<Load>{&Load::ground_radius, length, "none"},
+           .meaning = "radius of the drum, of the bar, or of the kerb's edge, which is sharp without it"},
+          {.name = "ground_height",
+           .unit = "m",
+           .field = OptionalNumberField<Load>{&Load::ground_height, length, "none"},
+           .meaning = "height of the kerb, or of the bar's highest line, above the flat ground, on which the "
+                      "bar lies without it; a bar as high as its radius is half sunk"},
+          {.name = "ground_place",
+           .unit = "m",
+           .field = NumberField<Load>{&Load::ground_place, between(-1000, 1000)},
+           .meaning =
+               "where the bar's axis, the kerb's face or the profile's origin is along the ground, from "
+               "below the axle, towards larger azimuth"},
+          {.name = "ground_profile",
+           .unit = "m",
+           .field = PointsField<Load>{&Load::ground_profile, between(-1000, 1000), "none"},
+           .meaning = "[[along, height], ...]: points of the ground, ascending along it, with straight lines "
+                      "between them and level ground beyond; heights are above flat ground"},
           {.name = "positions",
            .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
            .meaning = "N_d: number of load positions per sector, any on any grid"}}};
@@ -86,9 +113,13 @@ void add_changeable(std::vector<Key<CaseLoad>>& keys, Of Load::*of_section,
                             .meaning = key.meaning,
                             .instead_of = key.instead_of});
           };
-          if constexpr (std::is_same_v<Value, double> && requires { field.factor; })
+          constexpr bool is_number = std::is_same_v<Value, double>,
+                         is_word = std::is_same_v<Value, std::string>;
+          if constexpr (is_number && requires { field.factor; })
             add(OptionalNumberField<CaseLoad>{of_case, field.range, unchanged, field.factor});
-          else if constexpr (!std::is_same_v<Value, double> && requires { field.range; })
+          else if constexpr (is_word && requires { field.words; })
+            add(OptionalWordField<CaseLoad>{of_case, field.words, unchanged});
+          else if constexpr (!is_number && !is_word && requires { field.range; })
             add(OptionalPointField<CaseLoad>{of_case, field.range, unchanged});
         },
         key.field);
@@ -112,6 +143,16 @@ std::vector<Key<CaseLoad>> load_case_keys() {
   add_changeable(keys, &Load::body_force, &CaseLoad::body_force);
   add_changeable(keys, &Load::hole_pressure, &CaseLoad::hole_pressure);
   add_changeable(keys, &Load::speed, &CaseLoad::speed);
+  add_changeable(keys, &Load::ground, &CaseLoad::ground);
+  add_changeable(keys, &Load::ground_radius, &CaseLoad::ground_radius);
+  add_changeable(keys, &Load::ground_height, &CaseLoad::ground_height);
+  add_changeable(keys, &Load::ground_place, &CaseLoad::ground_place);
+  const Key<Load>& profile = *find_key(load_section().keys, "ground_profile");
+  keys.push_back({.name = profile.name,
+                  .unit = profile.unit,
+                  .field = PointsField<CaseLoad>{&CaseLoad::ground_profile,
+                                                 std::get<PointsField<Load>>(profile.field).range, unchanged},
+                  .meaning = profile.meaning});
   return keys;
 }
 

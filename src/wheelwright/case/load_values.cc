@@ -24,7 +24,7 @@ bool has_alternatives(const Key<Load>& key) {
   });
 }
 
-/// A value in the unit of its key in a case file; empty if it is 0.
+/// A value in the unit of its key in a case file; empty if it is 0 or flat ground.
 std::string text_in_file_unit(const Key<Load>& key, const Load& load) {
   double factor = 1;
   if (const auto* number = std::get_if<NumberField<Load>>(&key.field)) factor = number->factor;
@@ -34,6 +34,10 @@ std::string text_in_file_unit(const Key<Load>& key, const Load& load) {
       if (member != Member{}) text = fmt::format("{:.6g}", fmt::join(member, " and "));
     } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
       if (member) text = fmt::format("{:.6g}", *member);
+    } else if constexpr (std::is_same_v<Member, std::string>) {
+      if (member != Load().ground) text = member;
+    } else if constexpr (std::is_same_v<Member, std::vector<std::array<double, 2>>>) {
+      if (!member.empty()) text = fmt::format("of {} points in", member.size());
     } else if constexpr (std::is_arithmetic_v<Member>) {
       if (member != 0) text = fmt::format("{:.6g}", member / factor);
     }

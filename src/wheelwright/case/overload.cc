@@ -11,7 +11,7 @@ namespace wheelwright {
 bool is_overloaded(const Case& c) {
   if (c.load.travel || c.contact.with == Counterpart::ring || c.wheel.inner_radius >= c.wheel.outer_radius)
     return false;
-  return hertz_half_width(c) > 0.5 * c.wheel.outer_radius;
+  return hertz_half_width(c) > 0.5 * contact_radius(c);
 }
 
 bool may_be_in_megapascals(double modulus) {

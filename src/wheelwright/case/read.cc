@@ -267,6 +267,25 @@ std::optional<Complaint> read_field(const toml::node& node, const BoundKey&,
   return {};
 }
 
+/// Kept as it is written.
+template <class Field>
+std::optional<Complaint> read_kept_word(const toml::node& node, const Field& field) {
+  const auto index = read_word(node, field.words);
+  if (!index) return index.failure();
+  field.member.value() = std::string(field.words[*index]);
+  return {};
+}
+
+std::optional<Complaint> read_field(const toml::node& node, const BoundKey&,
+                                    const WordField<BoundTable>& field) {
+  return read_kept_word(node, field);
+}
+
+std::optional<Complaint> read_field(const toml::node& node, const BoundKey&,
+                                    const OptionalWordField<BoundTable>& field) {
+  return read_kept_word(node, field);
+}
+
 std::optional<Complaint> read_quantity(const toml::node& node, const Quantities& quantities,
                                        const QuantityField<BoundTable>& field) {
   const auto index = read_word(node, quantities.names());

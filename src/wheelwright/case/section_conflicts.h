@@ -18,6 +18,8 @@ void saved_shape_conflicts(const Case& c, Conflicts& found);
 /// outlines that cross themselves, too many curves, drawings that are not the same in all sectors.
 void shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found);
 void load_conflicts(const Case& c, Conflicts& found);
+/// Grounds that lack a value, do not fit the wheel, or do not go together with other loads.
+void ground_conflicts(const Case& c, Conflicts& found);
 void contact_conflicts(const Case& c, Conflicts& found);
 void material_conflicts(const Case& c, Conflicts& found);
 /// Keys that exist only in 2D or only in 3D.

@@ -83,6 +83,7 @@ std::string value_text(const OptionalPointField<BoundTable>& field) {
 }
 
 std::string value_text(const PointsField<BoundTable>& field) {
+  if (field.member.value().empty()) return "";
   std::vector<std::string> points;
   for (const auto& [x, y] : field.member.value())
     points.push_back(fmt::format("[{}, {}]", number_text(x), number_text(y)));
@@ -93,6 +94,13 @@ std::string value_text(const ChoiceField<BoundTable>& field) { return in_quotes(
 
 std::string value_text(const QuantityField<BoundTable>& field) {
   return in_quotes(name(field.member.value()));
+}
+
+std::string value_text(const WordField<BoundTable>& field) { return in_quotes(field.member.value()); }
+
+std::string value_text(const OptionalWordField<BoundTable>& field) {
+  const auto& word = field.member.value();
+  return word ? in_quotes(*word) : "";
 }
 
 std::string value_text(const BoundKey& key) {

@@ -14,12 +14,15 @@
 #include "wheelwright/app/wheel_input.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/ground_of.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/output/report/pass_report.h"
 #include "wheelwright/output/report/pressure_plot.h"
 #include "wheelwright/output/report/rolling_report.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/quantities/analysis/ground_pass.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/results/finer_wheel.h"
 #include "wheelwright/run/results/refined_numbers.h"
@@ -32,8 +35,9 @@ constexpr const char* result_file = "analysis.json";
 
 /// All files that are written to the folder: add the names of new files here.
 constexpr std::string_view files_of_analysis[] = {
-    "analysis.json", "travel.svg", "force.svg",  "peak_pressure.svg",  "pressures.svg",    "pressures.csv",
-    "loads.svg",     "mesh.svg",   "stress.svg", "stress_contact.svg", "displacement.svg", "pressure.svg"};
+    "analysis.json",      "travel.svg",       "force.svg",   "peak_pressure.svg", "pressures.svg",
+    "pressures.csv",      "pass.csv",         "loads.svg",   "mesh.svg",          "stress.svg",
+    "stress_contact.svg", "displacement.svg", "pressure.svg"};
 
 /// Loads on the whole width [N]. The wheel's name replaces a missing title.
 template <int dim>
@@ -92,6 +96,10 @@ std::string check_loads(const std::string& text) {
   return parse_loads(text) ? "" : "must be loads > 0, as in 1000,2000 or 500:3000:6";
 }
 
+std::string check_pass(const std::string& text) {
+  return parse_number_list(text) ? "" : "must be places, as in -0.1,0,0.1 or -0.2:0.2:41";
+}
+
 /// "0.5%" or "0.005", between 0 and 1.
 std::optional<double> parse_accuracy(std::string_view text) {
   const bool is_percent = text.ends_with('%');
@@ -117,6 +125,10 @@ class AnalyzeCommand : public Subcommand {
     options.text("--loads", "P1,P2,... | FROM:TO:NUMBER", loads_, check_loads,
                  "Report the deflection under these loads on the whole width [N]");
     options.text(
+        "--pass", "X1,X2,... | FROM:TO:NUMBER", pass_, check_pass,
+        "Report the forces while a bar, kerb or profile passes below: by so much it has moved along the "
+        "ground [m]");
+    options.text(
         "--load-case", "NAME", load_case_, [](const std::string&) { return ""; },
         "Compute the wheel under this [[load.case]] instead of the first one");
     add_output(options, output_, "Folder for JSON and plots; without it only the table is printed");
@@ -133,6 +145,11 @@ class AnalyzeCommand : public Subcommand {
     if (!wheel) return wheel.failure();
     if (output_ && !may_write_to(*output_, files_of_analysis)) return exit_refused;
     if (!take_load_case(*wheel)) return exit_refused;
+    if (pass_ &&
+        std::visit([](const auto& input) { return ground_of(input.source.load).is_even(); }, *wheel)) {
+      print_err("{}: --pass needs a load whose load.ground is a bar, a kerb or a profile\n", name());
+      return exit_refused;
+    }
     return std::visit([this](const auto& input) { return analyze(input); }, *wheel);
   }
 
@@ -174,6 +191,7 @@ class AnalyzeCommand : public Subcommand {
     RollingReport report = rolling_report(wheel, loads(), solver, **solved);
     if (!without_errors_ || accuracy_) add_accuracy(with_levels_of_results(c), solver, shape, solved, report);
     print_report(report);
+    if (pass_) report_pass(**solved);
     const auto size = deformation_size<dim>(solver, shape, **solved, report.analysis.deformations);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       warn_about(wheel.name, warning);
@@ -199,6 +217,17 @@ class AnalyzeCommand : public Subcommand {
                               : without_control_characters(report.title) + "\n\n" + rolling_table(report));
   }
 
+  /// The ground's way below the wheel, as a table and a file.
+  template <int dim>
+  void report_pass(const State<dim>& states) const {
+    const auto pass = ground_pass<dim>(states, *parse_number_list(*pass_));
+    const double forces = whole_width(dim, states.model().grid.width);
+    if (!json_) print_lines(stdout, '\n' + pass_table(pass, forces));
+    if (!output_) return;
+    make_folder(folder());
+    write_atomically(folder() / "pass.csv", pass_csv(pass, forces));
+  }
+
   template <int dim>
   void write(const RollingReport& report, const LevelSet<dim>& shape, const StateSolver<dim>& solver,
              const State<dim>& states) const {
@@ -210,7 +239,7 @@ class AnalyzeCommand : public Subcommand {
 
   std::string input_;
   int positions_ = 64;
-  std::optional<std::string> loads_, load_case_, output_, accuracy_;
+  std::optional<std::string> loads_, pass_, load_case_, output_, accuracy_;
   std::optional<int> threads_;
   bool json_ = false, without_errors_ = false;
 };

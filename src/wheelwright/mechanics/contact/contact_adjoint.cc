@@ -24,7 +24,7 @@ Matrix right_hand_sides(const ReducedContact<dim>& contact, const ActiveSystem<d
       for (int d = 0; d < dim; ++d)
         tested[d] = contact.tread().theta / point.gamma * observed[rows.traction(q) + d] -
                     observed[rows.displacement(q) + d];
-      tested = point.frame.template to_ground<dim>(tested);
+      tested = point.frame.template to_contact<dim>(tested);
       const auto& tractions = functions[f].tractions;
       for (int d = 0; d < nc; ++d)
         m(k, f) += system.tangents[i][d][component] *
@@ -47,8 +47,9 @@ ContactAdjoint adjoint_of(const ReducedContact<dim>& contact, const std::vector<
   ContactAdjoint adjoint{Matrix(rows.n_contact(), at.zone.n_columns), {}, by_rim};
   for (int i = 0; i < at.size(); ++i) {
     const ZonePoint<dim>& point = at.points[i];
-    adjoint.by_travel -= point.gamma * multiplier[i][0];
-    const Vec<dim> value = point.frame.template to_body<dim>(multiplier[i]);
+    adjoint.by_travel -=
+        point.gamma * dot<dim>(multiplier[i], rim_displacement(point, {.towards_ground = 1}));
+    const Vec<dim> value = point.frame.template contact_to_body<dim>(multiplier[i]);
     double* load = adjoint.loads.column(at.column(i));
     const int q = at.point_of_column(i);
     for (int d = 0; d < dim; ++d) {

@@ -8,14 +8,14 @@
 namespace wheelwright {
 namespace {
 
-/// The axes of the ground frame in a column's frame.
+/// The axes of the frame of a point's contact in its column's frame.
 template <int dim>
-std::array<Vec<dim>, dim> ground_axes(const GroundFrame& frame) {
+std::array<Vec<dim>, dim> contact_axes(const GroundFrame& frame) {
   std::array<Vec<dim>, dim> axes;
   for (int k = 0; k < dim; ++k) {
     Vec<dim> unit{};
     unit[k] = 1;
-    axes[k] = frame.to_body<dim>(unit);
+    axes[k] = frame.contact_to_body<dim>(unit);
   }
   return axes;
 }
@@ -32,12 +32,17 @@ Vec<dim> from_axle(const PolarGrid<dim>& grid, Vec<dim> position) {
   return position;
 }
 
-/// y += factor x, where the entries of y are `stride` apart.
-void add(double factor, const double* x, int n, double* y, int stride) {
+void add(double factor, const double* x, int n, double* y) {
+  for (int i = 0; i < n; ++i) y[i] += factor * x[i];
+}
+
+/// y_i += factor factors_i x_i, where the entries of y are `stride` apart.
+void add(double factor, const std::vector<double>& factors, const double* x, double* y, int stride) {
+  const int n = static_cast<int>(factors.size());
   if (stride == 1)
-    for (int i = 0; i < n; ++i) y[i] += factor * x[i];
+    for (int i = 0; i < n; ++i) y[i] += factors[i] * factor * x[i];
   else
-    for (int i = 0; i < n; ++i) y[stride * i] += factor * x[i];
+    for (int i = 0; i < n; ++i) y[stride * i] += factors[i] * factor * x[i];
 }
 
 /// Height of the axle's middle above the ground that the undeformed tread touches.
@@ -67,7 +72,8 @@ class Flexibility {
     }
     auto result = Matrix::unfilled(n_zone * n_column, n_zone * n_column);
     for (int to = 0; to < n_zone; ++to) {
-      multiply_rows(-1, in_ground_frame(tread_.samples(), to), seams, to * n_seam, 0, result, to * n_column);
+      multiply_rows(-1, in_contact_frames(tread_.samples(), to), seams, to * n_seam, 0, result,
+                    to * n_column);
       const Matrix compliance = column_compliance(to);
       for (int j = 0; j < n_column; ++j)
         for (int i = 0; i < n_column; ++i) result(to * n_column + i, to * n_column + j) -= compliance(i, j);
@@ -76,21 +82,33 @@ class Flexibility {
   }
 
  private:
-  /// Traces of a column (Tread) in the frame of the ground, with the components that contact needs.
-  Matrix in_ground_frame(const std::vector<Matrix>& traces, int column) const {
-    const auto axes = ground_axes<dim>(at_.points[at_.per_column() * column].frame);
+  /// [i][k][point]: component k, in the column's frame, of axis i of the contact frames of a column's points.
+  using Axes = std::array<std::array<std::vector<double>, dim>, dim>;
+  Axes axes_of(int column) const {
+    Axes axes;
+    for (int q = 0; q < at_.per_column(); ++q) {
+      const auto of_point = contact_axes<dim>(at_.points[at_.per_column() * column + q].frame);
+      for (int i = 0; i < dim; ++i)
+        for (int k = 0; k < dim; ++k) axes[i][k].push_back(of_point[i][k]);
+    }
+    return axes;
+  }
+
+  /// Traces of a column (Tread) in the frames of the contact, with the components that contact needs.
+  Matrix in_contact_frames(const std::vector<Matrix>& traces, int column) const {
+    const Axes axes = axes_of(column);
     const int n = components_, n_points = at_.per_column();
     Matrix result(n * n_points, traces.front().columns());
     for (size_t k = 0; k < traces.size(); ++k)
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < result.columns(); ++j)
-          add(axes[i][k], traces[k].column(j), n_points, result.column(j) + i, n);
+          add(1, axes[i][k], traces[k].column(j), result.column(j) + i, n);
     return result;
   }
 
   /// The compliance of a column between its seams, in the same way.
   Matrix column_compliance(int column) const {
-    const auto axes = ground_axes<dim>(at_.points[at_.per_column() * column].frame);
+    const Axes axes = axes_of(column);
     const int n = components_, n_points = at_.per_column(), traced = tread_.traced_components();
     Matrix result(n * n_points, n * n_points);
     for (int k = 0; k < traced; ++k)
@@ -99,8 +117,7 @@ class Flexibility {
         for (int j = 0; j < n; ++j)
           for (int i = 0; i < n; ++i)
             for (int from = 0; from < n_points; ++from)
-              add(axes[i][k] * axes[j][l], compliance.column(from), n_points, result.column(n * from + j) + i,
-                  n);
+              add(axes[j][l][from], axes[i][k], compliance.column(from), result.column(n * from + j) + i, n);
       }
     return result;
   }
@@ -118,7 +135,7 @@ class Flexibility {
       first = std::min(first, apart(seam));
       last = std::max(last, apart(seam));
     }
-    const Matrix tests = in_ground_frame(tread_.tests(), from);
+    const Matrix tests = in_contact_frames(tread_.tests(), from);
     Matrix by_distance((last + 1 - first) * n, n_column);
     for (int side = 0; side < 2; ++side) {
       const Matrix& responses =
@@ -144,10 +161,12 @@ class Flexibility {
 
 template <int dim>
 ContactPoints<dim> contact_points(const Tread<dim>& tread, const PolarGrid<dim>& grid, GroundPosition ground,
-                                  ContactZone zone) {
-  const double column_angle = grid.cell_size()[1], height = undeformed_height(grid, ground.camber);
+                                  ContactZone zone, const Ground& shape) {
+  const double column_angle = grid.cell_size()[1];
+  const double height = undeformed_height(grid, ground.camber) + shape.standing(grid.outer_radius).rise;
   const bool has_gaps = tread.form().counterpart == Counterpart::ground;
-  ContactPoints<dim> at{zone, tread.n_columns(), ground.column + ground.offset - zone.first_column, {}, {}};
+  ContactPoints<dim> at{zone, shape, tread.n_columns(), ground.column + ground.offset - zone.first_column,
+                        {},   {}};
   for (const auto& point : tread.points()) {
     const auto& x = point.position;
     at.places.push_back({std::atan2(x[1], x[0]) / column_angle, dim == 3 ? x[dim - 1] : 0.0});
@@ -157,7 +176,8 @@ ContactPoints<dim> contact_points(const Tread<dim>& tread, const PolarGrid<dim>&
                             ground.camber};
     for (const auto& point : tread.points()) {
       const Vec<dim> x = frame.to_ground<dim>(from_axle<dim>(grid, point.position));
-      at.points.push_back({x, has_gaps ? height - x[0] : 0, point.weight, point.gamma, frame});
+      const auto [gap, tilt] = has_gaps ? shape.nearest({x[1], height - x[0]}) : Ground::Nearest{0, 0};
+      at.points.push_back({x, gap, point.weight, point.gamma, {frame.angle, frame.camber, tilt}});
     }
   }
   return at;
@@ -173,7 +193,7 @@ Matrix ContactOperator<dim>::replies(const Matrix& forces) const {
   }
   for (int j = 0; j < forces.columns(); ++j)
     for (int i = 0; i < forces.rows(); ++i)
-      if (forces(i, j) != 0) add(forces(i, j), flexibility.column(i), result.rows(), result.column(j), 1);
+      if (forces(i, j) != 0) add(forces(i, j), flexibility.column(i), result.rows(), result.column(j));
   return result;
 }
 
@@ -188,7 +208,7 @@ std::shared_ptr<const ContactOperator<dim>> contact_operator(const SurfaceCompli
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
   template ContactPoints<dim> contact_points(const Tread<dim>&, const PolarGrid<dim>&, GroundPosition, \
-                                             ContactZone);                                             \
+                                             ContactZone, const Ground&);                              \
   template struct ContactOperator<dim>;                                                                \
   template std::shared_ptr<const ContactOperator<dim>> contact_operator(                               \
       const SurfaceCompliance<dim>&, const Tread<dim>&, ContactPoints<dim>, int);

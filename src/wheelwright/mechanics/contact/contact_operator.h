@@ -4,6 +4,7 @@
 
 #include "wheelwright/mechanics/contact/contact_state.h"
 #include "wheelwright/mechanics/ring/surface_compliance.h"
+#include "wheelwright/mechanics/state/ground.h"
 #include "wheelwright/mechanics/state/ground_frame.h"
 #include "wheelwright/mechanics/state/load_positions.h"
 
@@ -13,11 +14,17 @@ namespace wheelwright {
 template <int dim>
 struct ZonePoint {
   Vec<dim> position;  ///< relative to the axle: component 0 towards the ground, 1 along it [m]
-  double gap;         ///< g (9) [m]
+  double gap;         ///< g (9): distance to the ground along its normal n [m]
   double weight;      ///< dS
   double gamma;       ///< [Pa/m]
-  GroundFrame frame;  ///< turns column-frame components into the ground frame
+  GroundFrame frame;  ///< turns column-frame components into the frames of the ground and of the contact
 };
+
+/// The displacement of a point that moves with the rim, in the frame of its contact.
+template <int dim>
+Vec<dim> rim_displacement(const ZonePoint<dim>& point, const RimMotion& motion) {
+  return point.frame.template ground_to_contact<dim>(displacement<dim>(motion, point.position));
+}
 
 /// The contact points of a zone at one load position, in the order (column, point of the column).
 template <int dim>
@@ -29,6 +36,7 @@ struct ContactPoints {
   };
 
   ContactZone zone;
+  Ground shape;  ///< of the ground
   int ring_columns;
   double ground;              ///< the ground position, in columns from the zone's first azimuth
   std::vector<Place> places;  ///< of the points of a column
@@ -42,10 +50,11 @@ struct ContactPoints {
   ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
 };
 
-/// The points of a tread near the ground, or inside a rigid ring to which it is bonded without gaps.
+/// The points of a tread near the ground, or inside a rigid ring to which it is bonded without gaps. A ground
+/// that is not even is for wheels that stand upright.
 template <int dim>
 ContactPoints<dim> contact_points(const Tread<dim>& tread, const PolarGrid<dim>& grid, GroundPosition ground,
-                                  ContactZone zone);
+                                  ContactZone zone, const Ground& shape = {});
 
 /// How the tread answers tractions at its contact points, whatever law they obey.
 template <int dim>

@@ -14,7 +14,7 @@ Matrix contact_loads(const ReducedContact<dim>& contact, const ContactState<dim>
   Matrix loads(rows.n_contact(), at.zone.n_columns);
   for (int i = 0; i < contact.n_points(); ++i) {
     const ZonePoint<dim>& point = contact.points()[i];
-    const Vec<dim> traction = point.frame.template to_body<dim>(state.traction[i]);
+    const Vec<dim> traction = point.frame.template contact_to_body<dim>(state.traction[i]);
     double* load = loads.column(at.column(i));
     const int q = at.point_of_column(i);
     for (int d = 0; d < dim; ++d) {

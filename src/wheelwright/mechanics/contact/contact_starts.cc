@@ -40,13 +40,13 @@ std::vector<Neighbour> neighbours(const ContactPoints<dim>& at, double shift) {
 
 template <int dim>
 ContactUnknowns<dim> hertz_start(const ReducedContact<dim>& contact, double load, double radius,
-                                 double reduced_modulus) {
+                                 double reduced_modulus, double centre) {
   const double half_width = 2 * std::sqrt(load * radius / (std::numbers::pi * reduced_modulus));
   const double peak = 2 * load / (std::numbers::pi * half_width);
   ContactUnknowns<dim> x{std::vector<Vec<dim>>(contact.points().size(), Vec<dim>{}),
                          std::vector<double>(contact.n_free())};
   for (size_t i = 0; i < contact.points().size(); ++i) {
-    const double s = contact.points()[i].position[1] / half_width;
+    const double s = (contact.points()[i].position[1] - centre) / half_width;
     x.augmented[i][0] =
         std::abs(s) < 1 ? -peak * std::sqrt(1 - s * s) : contact.points()[i].gamma * contact.points()[i].gap;
   }
@@ -72,7 +72,7 @@ ContactUnknowns<dim> start_from(const ReducedContact<dim>& contact, const Contac
   for (int i = 0; i < contact.n_points(); ++i) {
     const ZonePoint<dim>& point = contact.points()[i];
     Vec<dim> open{};
-    open[0] = point.gamma * std::max(0.0, point.gap - displacement<dim>(other.rim, point.position)[0]);
+    open[0] = point.gamma * std::max(0.0, point.gap - rim_displacement(point, other.rim)[0]);
     const auto [columns, q] = nearest[at.point_of_column(i)];
     const int column = at.column(i) + columns;
     x.augmented.push_back(
@@ -98,11 +98,11 @@ ContactUnknowns<dim> touching(const ReducedContact<dim>& contact, ContactUnknown
   return guess;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                              \
-  template ContactUnknowns<dim> hertz_start(const ReducedContact<dim>&, double, double, double);  \
-  template ContactUnknowns<dim> undeformed_start(const ReducedContact<dim>&);                     \
-  template ContactUnknowns<dim> zero_start(const ReducedContact<dim>&);                           \
-  template ContactUnknowns<dim> start_from(const ReducedContact<dim>&, const ContactState<dim>&); \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                     \
+  template ContactUnknowns<dim> hertz_start(const ReducedContact<dim>&, double, double, double, double); \
+  template ContactUnknowns<dim> undeformed_start(const ReducedContact<dim>&);                            \
+  template ContactUnknowns<dim> zero_start(const ReducedContact<dim>&);                                  \
+  template ContactUnknowns<dim> start_from(const ReducedContact<dim>&, const ContactState<dim>&);        \
   template ContactUnknowns<dim> touching(const ReducedContact<dim>&, ContactUnknowns<dim>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

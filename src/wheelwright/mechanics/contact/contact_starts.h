@@ -6,10 +6,10 @@ namespace wheelwright {
 
 // Initial guesses for Newton's method.
 
-/// The pressure of the Hertz contact of a solid disc.
+/// The pressure of the Hertz contact of a solid disc, `centre` from below the axle along the ground.
 template <int dim>
 ContactUnknowns<dim> hertz_start(const ReducedContact<dim>& contact, double load, double radius,
-                                 double reduced_modulus);
+                                 double reduced_modulus, double centre = 0);
 
 /// The undeformed tread under the rim's prescribed motion.
 template <int dim>

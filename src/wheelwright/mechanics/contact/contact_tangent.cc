@@ -35,7 +35,7 @@ Matrix matrix_on(const ReducedContact<dim>& contact, const std::vector<Mat<dim>>
     }
     a(j, j) += 1;
     for (int k = 0; k < n_free; ++k) {
-      const Vec<dim> motion = displacement<dim>(contact.rim().free[k].direction, point.position);
+      const Vec<dim> motion = rim_displacement(point, contact.rim().free[k].direction);
       for (int d = 0; d < nc; ++d) a(n + k, j) -= point.weight * tangents[index][d][component] * motion[d];
       a(j, n + k) = point.gamma * motion[component];
     }
@@ -96,7 +96,7 @@ std::vector<ContactUnknowns<dim>> ContactTangent<dim>::solve(
     for (int i = 0; i < contact.n_points(); ++i) {
       const auto& point = contact.points()[i];
       for (int k = 0; k < n_free; ++k) {
-        const Vec<dim> motion = displacement<dim>(contact.rim().free[k].direction, point.position);
+        const Vec<dim> motion = rim_displacement(point, contact.rim().free[k].direction);
         for (int d = 0; d < nc; ++d) step.augmented[i][d] -= point.gamma * motion[d] * step.rim[k];
       }
       for (int d = 0; d < nc; ++d) step.augmented[i][d] += replies(nc * i + d, j);

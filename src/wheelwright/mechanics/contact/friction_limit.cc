@@ -64,7 +64,7 @@ std::optional<Sliding> sliding_along(const ReducedContact<dim>& contact, const V
   for (int i = 0; i < contact.n_points(); ++i) {
     const auto& point = contact.points()[i];
     const Vec<dim> traction = sliding.response(i, end.x.augmented[i]).traction;
-    result.against_push -= point.weight * dot<dim>(traction, displacement<dim>(push, point.position));
+    result.against_push -= point.weight * dot<dim>(traction, rim_displacement(point, push));
     result.normal_force -= point.weight * traction[0];
   }
   return result;

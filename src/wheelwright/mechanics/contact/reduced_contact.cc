@@ -22,7 +22,7 @@ std::vector<Vec<dim>> without_tractions(const ContactOperator<dim>& tread, const
                  *traction = observed + rows.traction(at.point_of_column(i));
     Vec<dim> z;
     for (int d = 0; d < dim; ++d) z[d] = tread.tau * traction[d] - at.points[i].gamma * displacement[d];
-    result.push_back(at.points[i].frame.template to_ground<dim>(z));
+    result.push_back(at.points[i].frame.template to_contact<dim>(z));
   }
   return result;
 }
@@ -70,7 +70,7 @@ std::vector<Vec<dim>> ReducedContact<dim>::without_contact(const std::vector<dou
   std::vector<Vec<dim>> result;
   for (int i = 0; i < n_points(); ++i) {
     const ZonePoint<dim>& point = points()[i];
-    Vec<dim> z = displacement<dim>(rim, point.position);
+    Vec<dim> z = rim_displacement(point, rim);
     z[0] -= point.gap;
     for (int d = 0; d < dim; ++d) z[d] = (preload_.empty() ? 0.0 : preload_[i][d]) - point.gamma * z[d];
     result.push_back(z);
@@ -97,13 +97,13 @@ ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x
     if (!law_->is_active(i, x.augmented[i])) continue;
     for (int d = 0; d < nc; ++d) forces(nc * i + d, 0) = points()[i].weight * traction[d];
     for (int k = 0; k < n_free(); ++k)
-      result.rim[k] -= points()[i].weight *
-                       dot<dim>(traction, displacement<dim>(rim_.free[k].direction, points()[i].position));
+      result.rim[k] -=
+          points()[i].weight * dot<dim>(traction, rim_displacement(points()[i], rim_.free[k].direction));
   }
   const Matrix reply = tread_->replies(forces);
   const RimMotion rim = rim_motion(x.rim);
   for (int i = 0; i < n_points(); ++i) {
-    Vec<dim> approach = displacement<dim>(rim, points()[i].position);
+    Vec<dim> approach = rim_displacement(points()[i], rim);
     approach[0] -= points()[i].gap;
     for (int d = 0; d < nc; ++d)
       result.augmented[i][d] = x.augmented[i][d] - reply(nc * i + d, 0) + points()[i].gamma * approach[d] -
@@ -132,7 +132,7 @@ ContactUnknowns<dim> ReducedContact<dim>::residual_of(int point, const Vec<dim>&
   }
   for (const FreeMotion& motion : rim_.free)
     result.rim.push_back(-points()[point].weight *
-                         dot<dim>(traction, displacement<dim>(motion.direction, points()[point].position)));
+                         dot<dim>(traction, rim_displacement(points()[point], motion.direction)));
   return result;
 }
 
@@ -151,7 +151,8 @@ ContactState<dim> ReducedContact<dim>::state(const ContactUnknowns<dim>& x, int 
   state.rim_force = scaled(-1, preload_resultant_);
   for (int i = 0; i < n_points(); ++i) {
     state.traction.push_back(response(i, x.augmented[i]).traction);
-    const RimForce force = resultant<dim>(state.traction.back(), points()[i].position);
+    const Vec<dim> traction = points()[i].frame.template contact_to_ground<dim>(state.traction.back());
+    const RimForce force = resultant<dim>(traction, points()[i].position);
     state.rim_force = sum(state.rim_force, scaled(-points()[i].weight, force));
   }
   return state;
@@ -169,8 +170,8 @@ template <int dim>
 ReducedContact<dim> reduced_contact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread,
                                     const PolarGrid<dim>& grid, GroundPosition ground, ContactZone zone,
                                     std::shared_ptr<const ContactLaw<dim>> law, RimControl rim,
-                                    const Preload& preload) {
-  auto points = contact_points(tread, grid, ground, zone);
+                                    const Preload& preload, const Ground& shape) {
+  auto points = contact_points(tread, grid, ground, zone, shape);
   auto op = contact_operator(surface, tread, std::move(points), law->is_tangential() ? dim : 1);
   return {std::move(op), std::move(law), std::move(rim), preload};
 }
@@ -179,7 +180,7 @@ ReducedContact<dim> reduced_contact(const SurfaceCompliance<dim>& surface, const
   template class ReducedContact<dim>;                                                                       \
   template ReducedContact<dim> reduced_contact(                                                             \
       const SurfaceCompliance<dim>&, const Tread<dim>&, const PolarGrid<dim>&, GroundPosition, ContactZone, \
-      std::shared_ptr<const ContactLaw<dim>>, RimControl, const Preload&);
+      std::shared_ptr<const ContactLaw<dim>>, RimControl, const Preload&, const Ground&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

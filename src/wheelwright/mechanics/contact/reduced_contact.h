@@ -86,6 +86,6 @@ template <int dim>
 ReducedContact<dim> reduced_contact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread,
                                     const PolarGrid<dim>& grid, GroundPosition ground, ContactZone zone,
                                     std::shared_ptr<const ContactLaw<dim>> law, RimControl rim,
-                                    const Preload& preload = {});
+                                    const Preload& preload = {}, const Ground& shape = {});
 
 }  // namespace wheelwright

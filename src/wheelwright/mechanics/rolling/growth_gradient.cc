@@ -40,9 +40,10 @@ std::vector<FunctionalDerivative<dim>> by_states_without_load(
     Matrix loads(s.observations.rows(), s.observations.columns());
     for (int i = 0; i < s.positions.size(); ++i) {
       const StandingPoint<dim>& at = s.standing[i];
+      // By which the rim sinks when the point moves: along the normal, over its part along n_y.
       Vec<dim> down{};
-      down[0] = 1;
-      down = at.frame.template to_body<dim>(down);
+      down[0] = 1 / std::cos(at.frame.tilt);
+      down = at.frame.template contact_to_body<dim>(down);
       for (int d = 0; d < dim; ++d)
         loads(rows.displacement(at.point) + d, i * n_columns + at.column) = -factors[i] * down[d];
     }

@@ -44,7 +44,7 @@ std::vector<StandingPoint<dim>> standing_points(const RollingModel<dim>& model,
   const Matrix observed =
       without_ground<dim>(rotation, elements, tread, shape, std::span(positions.grounds).first(1)).observed;
   for (const GroundPosition& ground : positions.grounds)
-    result.push_back(standing_point(tread, model.grid, ground, observed));
+    result.push_back(standing_point(tread, model.grid, ground, model.ground, observed));
   return result;
 }
 

@@ -27,12 +27,28 @@ template <int dim>
 int columns_in_contact(const RollingModel<dim>& model, bool between_columns) {
   constexpr double margin = 1.2;  // holes widen a patch
   const PolarGrid<dim>& grid = model.grid;
+  const double radius = effective_radius(model.ground, grid.outer_radius);
   const double half_width =
-      model.travel ? 0.5 * std::sqrt(2 * grid.outer_radius * std::max(*model.travel, 0.0))
-                   : 2 * std::sqrt(line_load(model) * grid.outer_radius /
+      model.travel ? 0.5 * std::sqrt(2 * radius * std::max(*model.travel, 0.0))
+                   : 2 * std::sqrt(line_load(model) * radius /
                                    (std::numbers::pi * model.materials.at_tread().contact_modulus()));
-  return static_cast<int>(std::ceil(margin * half_width / (grid.outer_radius * grid.cell_size()[1]))) + 1 +
-         between_columns;
+  const double to_middle = grid.outer_radius * std::abs(model.ground.standing(grid.outer_radius).tilt);
+  const double width = std::min(margin * half_width + to_middle, grid.outer_radius * std::numbers::pi);
+  return static_cast<int>(std::ceil(width / (grid.outer_radius * grid.cell_size()[1]))) + 1 + between_columns;
+}
+
+/// Columns from the ground position to one beyond the last at which a rigid tread whose rim moves so would
+/// reach the ground, within a quarter of the ring: other parts of uneven ground than where the wheel stands.
+template <int dim>
+int columns_reached(const RollingModel<dim>& model, const Tread<dim>& tread, GroundPosition ground,
+                    const RimMotion& rim) {
+  const int half = (model.grid.ring_columns() / 2 - 1) / 2;
+  const auto at = contact_points(tread, model.grid, ground, {ground.column - half, 2 * half}, model.ground);
+  int reached = 0;
+  for (int i = 0; i < at.size(); ++i)
+    if (at.points[i].gap < rim_displacement(at.points[i], rim)[0])
+      reached = std::max(reached, std::max(half - at.column(i), at.column(i) - half + 1));
+  return std::min(half, reached + 1);
 }
 
 template <int dim>
@@ -93,9 +109,12 @@ Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const 
                                           const Interrupt& interrupt) {
   std::vector<ContactUnknowns<dim>> starts;
   if (known) starts.push_back(start_from(contact, *known));
-  starts.push_back(model.travel ? undeformed_start(contact)
-                                : hertz_start(contact, line_load(model), model.grid.outer_radius,
-                                              model.materials.at_tread().contact_modulus()));
+  const double radius = model.grid.outer_radius;
+  starts.push_back(model.travel
+                       ? undeformed_start(contact)
+                       : hertz_start(contact, line_load(model), effective_radius(model.ground, radius),
+                                     model.materials.at_tread().contact_modulus(),
+                                     radius * std::sin(model.ground.standing(radius).tilt)));
   auto state = solve_contact<dim>(contact, starts, interrupt);
   if (!state) return contact_failure(state.failure(), model, contact);
   return *std::move(state);
@@ -114,7 +133,7 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
   if (law->is_linear()) {
     const int n = grid.ring_columns();
     auto contact = reduced_contact<dim>(surface, tread, grid, ground, {ground.column - n / 2, n}, law,
-                                        rim_control(model, preload), preload);
+                                        rim_control(model, preload), preload, model.ground);
     auto state = solve_in_zone<dim>(model, contact, {}, interrupt);
     if (!state) return state.failure();
     return RolledContact<dim>{std::move(contact), *std::move(state)};
@@ -131,13 +150,14 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
       wider = surface_compliance<dim>(ring, tread, grid, {{ground}, {1}}, half);
     auto contact =
         reduced_contact<dim>(wider ? *wider : surface, tread, grid, ground, {ground.column - half, 2 * half},
-                             law, rim_control(model, preload), preload);
+                             law, rim_control(model, preload), preload, model.ground);
     auto state = solve_in_zone(model, contact, known, interrupt);
     if (!state) return state.failure();
-    if (!touches_edge(*state) || half >= largest_half)
+    const int reached = model.ground.is_even() ? 0 : columns_reached(model, tread, ground, state->rim);
+    if ((!touches_edge(*state) && reached <= half) || half >= largest_half)
       return RolledContact<dim>{std::move(contact), *std::move(state)};
     known = *std::move(state);
-    half += std::max(2, half / 8);
+    half = std::max(half + std::max(2, half / 8), reached);
   }
 }
 
@@ -146,10 +166,15 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
                                     GroundPosition ground, const Preload& preload,
                                     const RolledContact<dim>& before) {
+  if (!(model.ground == before.contact.tread().at.shape))
+    return roll_to<dim>(model, tread, ring, surface, ground, preload, {});
   ReducedContact<dim> contact = before.contact.under(rim_control(model, preload));
   auto state = solve_in_zone<dim>(model, contact, before.state, Interrupt());
   if (!state) return state.failure();
-  if (touches_edge(*state) && !has_linear_contact(model))
+  const bool is_wide = touches_edge(*state) ||
+                       (!model.ground.is_even() &&
+                        2 * columns_reached(model, tread, ground, state->rim) > contact.zone().n_columns);
+  if (is_wide && !has_linear_contact(model))
     return roll_to<dim>(model, tread, ring, surface, ground, preload, *state);
   return RolledContact<dim>{std::move(contact), *std::move(state)};
 }

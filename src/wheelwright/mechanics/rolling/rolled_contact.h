@@ -39,7 +39,7 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
                                      const Interrupt& interrupt = {});
 
 /// The same position under the loads or the travel of `model`, which differs in nothing else. It costs
-/// little as long as the contact stays in the zone of `before`.
+/// little as long as the contact stays in the zone of `before`, on the same ground.
 template <int dim>
 Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wheelwright/mechanics/ring/tread.h"
+#include "wheelwright/mechanics/state/ground.h"
 #include "wheelwright/mechanics/state/ground_frame.h"
 #include "wheelwright/mechanics/state/load_positions.h"
 
@@ -11,14 +12,14 @@ template <int dim>
 struct StandingPoint {
   int column;         ///< of the ring
   int point;          ///< of the column
-  GroundFrame frame;  ///< turns components in the column's frame into the ground frame
+  GroundFrame frame;  ///< turns components in the column's frame into those of ground and contact
   double growth;      ///< (ContactPatch) [m]
 };
 
 /// `observed`: of the displacement by rotation alone on the tread, one column per ring column. The wheel
-/// stands upright.
+/// stands upright, on even ground.
 template <int dim>
 StandingPoint<dim> standing_point(const Tread<dim>& tread, const PolarGrid<dim>& grid, GroundPosition ground,
-                                  const Matrix& observed);
+                                  const Ground& shape, const Matrix& observed);
 
 }  // namespace wheelwright

@@ -7,20 +7,23 @@
 
 namespace wheelwright {
 
-/// The contact at one load position: the action of the ground on the wheel near the contact point. Vectors
-/// are in the ground frame: component 0 along n_y, towards the ground, 1 along it.
+/// The contact at one load position: the action of the ground on the wheel near the contact point.
 template <int dim>
 struct ContactPatch {
   /// A contact quadrature point of the tread.
   struct Point {
     int column;          ///< of the ring
     int point;           ///< of the column (TreadSurface::points)
-    GroundFrame frame;   ///< turns components in the column's frame into the ground frame
-    Vec<dim> position;   ///< relative to the axle [m]
-    double gap;          ///< g (9) [m]
+    GroundFrame frame;   ///< turns components in the column's frame into those of ground and contact
+    Vec<dim> position;   ///< relative to the axle [m]; ground frame: towards the ground, along it, across
+    double gap;          ///< g (9): distance to the ground along its normal n [m]
     double weight;       ///< dS [m, or m^2 when dim = 3]
-    Vec<dim> augmented;  ///< z = tau sigma(u)n - gamma (u - g n_y) [Pa]; in contact where z_0 < 0
-    Vec<dim> traction;   ///< Phi(z) of (18), (23): the ground's traction on the wheel [Pa]
+    Vec<dim> augmented;  ///< z = tau sigma(u)n - gamma (u - g n) [Pa], frame of the contact: component 0
+                         ///< along n, which is n_y on flat ground; in contact where z_0 < 0
+    Vec<dim> traction;   ///< Phi(z) of (18), (23): the ground's traction on the wheel, in that frame [Pa]
+
+    /// The traction in the ground frame: component 0 along n_y, towards the ground.
+    Vec<dim> ground_traction() const { return frame.template contact_to_ground<dim>(traction); }
   };
 
   std::vector<Point> points;  ///< ascending along the ground, column by column

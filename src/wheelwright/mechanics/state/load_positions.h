@@ -7,9 +7,9 @@
 
 namespace wheelwright {
 
-/// The ground at one load position, in the body frame. It is flat and rigid and touches the undeformed tread
-/// circle in ring column `column`, a fraction `offset` of the column past its first azimuth; n_y points from
-/// the axle to that point.
+/// The ground at one load position, in the body frame. n_y points from the axle to the undeformed tread circle
+/// in ring column `column`, a fraction `offset` of the column past its first azimuth: there it touches ground
+/// that is flat or a drum (WheelLoads::ground).
 struct GroundPosition {
   int column;
   double offset = 0;  ///< 0 <= offset < 1

@@ -17,7 +17,8 @@ RimControl rim_control(const RollingModel<dim>& model) {
 
 template <int dim>
 bool is_mirror_symmetric(const RollingModel<dim>& model) {
-  return model.horizontal_force == 0 && model.torque == 0 && model.distributed.body_force[1] == 0;
+  return model.horizontal_force == 0 && model.torque == 0 && model.distributed.body_force[1] == 0 &&
+         model.ground.is_symmetric();
 }
 
 template <int dim>

@@ -8,6 +8,7 @@
 #include "wheelwright/mechanics/elasticity/materials.h"
 #include "wheelwright/mechanics/elasticity/side_faces.h"
 #include "wheelwright/mechanics/state/contact_law.h"
+#include "wheelwright/mechanics/state/ground.h"
 #include "wheelwright/mechanics/state/rim.h"
 #include "wheelwright/shape/geometry/polar_grid.h"
 
@@ -43,7 +44,7 @@ struct DistributedLoads {
   }
 };
 
-/// What loads a wheel. Forces are per metre of width when dim = 2.
+/// What loads a wheel, and the ground that carries it. Forces are per metre of width when dim = 2.
 template <int dim>
 struct WheelLoads {
   double load = 0;              ///< P [N/m when dim = 2, N when dim = 3]
@@ -51,8 +52,10 @@ struct WheelLoads {
   double lateral_force =
       0;              ///< on the rim along the axle, towards larger z; if not 0, it moves; when dim = 3 [N]
   double torque = 0;  ///< M on the rim about the axle; if not 0, it turns
-  std::optional<double> travel = {};  ///< of the rim towards the ground [m], instead of the load
+  /// Of the rim towards the ground from where the undeformed wheel touches it [m], instead of the load.
+  std::optional<double> travel = {};
   DistributedLoads<dim> distributed = {};
+  Ground ground = {};
 };
 
 /// A rolling structure and its loads: all but its shape.
@@ -84,7 +87,7 @@ struct RollingModel : WheelLoads<dim> {
 template <int dim>
 RimControl rim_control(const RollingModel<dim>& model);
 
-/// Whether a model's loads are their own mirror image in the plane of a load position.
+/// Whether a model's loads and ground are their own mirror image in the plane of a load position.
 template <int dim>
 bool is_mirror_symmetric(const RollingModel<dim>& model);
 

@@ -67,11 +67,13 @@ Json fields_json(const SectorMesh& mesh, std::span<const MeshPosition> all) {
                          {"x", encoded(as_shorts(position.x, full_displacement))},
                          {"y", encoded(as_shorts(position.y, full_displacement))},
                          {"root_of_stress", encoded(as_bytes_of_roots(position.von_mises, full_stress))}});
-  return {{"points", encoded(points)},
-          {"triangles", encoded(mesh.triangles)},
-          {"full_displacement_m", full_displacement},
-          {"full_stress_Pa", full_stress},
-          {"positions", std::move(positions)}};
+  Json json{{"points", encoded(points)},
+            {"triangles", encoded(mesh.triangles)},
+            {"full_displacement_m", full_displacement},
+            {"full_stress_Pa", full_stress},
+            {"positions", std::move(positions)}};
+  if (!all.empty() && !all.front().ground.empty()) json["ground_m"] = all.front().ground;
+  return json;
 }
 
 /// null if it could not be computed.

@@ -29,6 +29,8 @@ struct MeshPosition {
   double ground_azimuth;          ///< as in PositionFields
   std::vector<double> x, y;       ///< displacement [m], body frame
   std::vector<double> von_mises;  ///< [Pa]
+  /// Outline of ground that is not flat: along it towards larger azimuth, and up from the axle [m].
+  std::vector<Vec<2>> ground = {};
 };
 
 MeshPosition on_mesh(const SectorMesh& mesh, const PositionFields<2>& fields);

@@ -35,10 +35,12 @@ Vec<2> interpolated(const RingField& field, const Lattice<2>& lattice, const std
                         std::span(shape.data(), nodes_per_cell<2>(lattice.degree())));
 }
 
-/// How far magnified displacements move the tread below the ground, at equally spaced azimuths.
+/// How far magnified displacements move the tread below the ground, at equally spaced azimuths. `level`: of
+/// the ground below the axle of the undeformed wheel.
 std::vector<double> press_of_tread(const Lattice<2>& lattice, const RingField& displacement,
-                                   double magnification, double contact_azimuth) {
+                                   double magnification, double contact_azimuth, const Ground& ground) {
   const PolarGrid<2>& grid = lattice.grid();
+  const double radius = grid.outer_radius, level = radius + ground.standing(radius).rise;
   std::vector<double> press;
   for (int column = 0; column < grid.ring_columns(); ++column)
     for (int k = 0; k < press_samples; ++k) {
@@ -47,7 +49,11 @@ std::vector<double> press_of_tread(const Lattice<2>& lattice, const RingField& d
       const Vec<2> u = interpolated(displacement, lattice, {grid.cells[0] - 1, column},
                                     shape_values(lattice.degree(), {1, xi}));
       const double down = std::cos(contact_azimuth) * u[0] + std::sin(contact_azimuth) * u[1];
-      const double below = magnification * down - grid.outer_radius * (1 - std::cos(azimuth));
+      const double along = std::cos(contact_azimuth) * u[1] - std::sin(contact_azimuth) * u[0];
+      const double below = ground.is_flat()
+                               ? magnification * down - grid.outer_radius * (1 - std::cos(azimuth))
+                               : magnification * down + radius * std::cos(azimuth) - level +
+                                     ground.height(radius * std::sin(azimuth) + magnification * along);
       press.push_back(below > 0 ? below : 0);  // nothing for NaN
     }
   return press;
@@ -68,14 +74,17 @@ std::vector<MaterialPolygon> divided(const MaterialPolygon& polygon, int parts) 
 
 DeformedMaterial::DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lattice,
                                    const RingField& displacement, double magnification,
-                                   double contact_azimuth, Below below)
+                                   double contact_azimuth, Below below, const Ground& ground)
     : psi_(psi),
       lattice_(lattice),
       displacement_(displacement),
       magnification_(magnification),
       to_picture_(-0.5 * std::numbers::pi - contact_azimuth),
-      press_(below == Below::ground ? press_of_tread(lattice, displacement, magnification, contact_azimuth)
-                                    : std::vector<double>()) {}
+      ground_(ground),
+      level_(lattice.grid().outer_radius + ground.standing(lattice.grid().outer_radius).rise),
+      press_(below == Below::ground
+                 ? press_of_tread(lattice, displacement, magnification, contact_azimuth, ground)
+                 : std::vector<double>()) {}
 
 double DeformedMaterial::max_press() const { return press_.empty() ? 0 : std::ranges::max(press_); }
 
@@ -97,7 +106,8 @@ Vec<2> DeformedMaterial::moved(const Vec<2>& x, double radius, double azimuth, c
   Vec<2> place = undeformed({x[0] + magnification_ * u[0], x[1] + magnification_ * u[1]});
   if (press_.empty()) return place;
   place[1] -= share * press_at(azimuth);
-  return {place[0], place[1] > grid.outer_radius ? grid.outer_radius : place[1]};
+  const double depth = level_ - ground_.height(place[0]);
+  return {place[0], place[1] > depth ? depth : place[1]};
 }
 
 Vec<2> DeformedMaterial::drawn(const Vec<2>& x) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "wheelwright/mechanics/state/ground.h"
 #include "wheelwright/mechanics/state/ring_field.h"
 #include "wheelwright/shape/geometry/axle_rotation.h"
 #include "wheelwright/shape/geometry/contour.h"
@@ -36,7 +37,7 @@ class DeformedMaterial {
  public:
   /// `lattice` carries the fields. All must outlive this.
   DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lattice, const RingField& displacement,
-                   double magnification, double contact_azimuth, Below below);
+                   double magnification, double contact_azimuth, Below below, const Ground& ground = {});
 
   /// The material of every sector, its cells divided into parts x parts squares, cut ones clipped. Cells
   /// whose undeformed position is outside the circle about `centre` (picture coordinates) are omitted.
@@ -75,7 +76,9 @@ class DeformedMaterial {
   const Lattice<2>& lattice_;
   const RingField& displacement_;
   double magnification_;
-  AxleRotation to_picture_;    ///< that moves the contact to the bottom, before the second axis is reversed
+  AxleRotation to_picture_;  ///< that moves the contact to the bottom, before the second axis is reversed
+  Ground ground_;
+  double level_;               ///< of the ground below the axle of the undeformed wheel [m]
   std::vector<double> press_;  ///< of the tread, at equal azimuths round the ring [m]; empty: nothing below
 };
 

@@ -167,8 +167,8 @@ std::string marks(const DeformedMaterial& material, const PolarGrid<2>& grid,
     x = rotated<2>(x, -picture.magnification * picture.rim.rotation);
     return Vec<2>{x[0] + axle[0], x[1] + axle[1]};
   };
-  std::string svg =
-      picture.is_bonded ? ring_mark(view, grid.outer_radius) : ground_mark(view, grid.outer_radius);
+  std::string svg = picture.is_bonded ? ring_mark(view, grid.outer_radius)
+                                      : ground_mark(view, grid.outer_radius, picture.ground);
   if (picture.window)
     return picture.is_bonded ? svg : svg + pressure_mark(view, grid.outer_radius, picture.contact);
   return svg + azimuth_mark(view, on_rim(0), on_rim(1)) + force_marks(view, axle, picture.rim_force, grid);
@@ -237,8 +237,8 @@ std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
   const PolarGrid<2>& grid = lattice.grid();
   const PictureView view = view_of(grid, picture.window);
   const DeformedMaterial material(psi, lattice, picture.displacement, picture.magnification,
-                                  picture.contact_azimuth,
-                                  picture.is_bonded ? Below::nothing : Below::ground);
+                                  picture.contact_azimuth, picture.is_bonded ? Below::nothing : Below::ground,
+                                  picture.ground);
   const std::vector<DrawnPiece> pieces = shown_pieces(material, picture, view);
   const ColourScale scale = scale_with_peak(material, pieces, picture, view);
   const bool is_pressed = !(material.max_press() * view.pixels_per_metre() < 0.5);

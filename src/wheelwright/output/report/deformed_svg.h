@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/mechanics/state/ground.h"
 #include "wheelwright/mechanics/state/rim.h"
 #include "wheelwright/mechanics/state/ring_field.h"
 #include "wheelwright/output/report/colour_scale.h"
@@ -27,6 +28,7 @@ struct DeformedPicture {
   double contact_azimuth;    ///< azimuth of the contact point in the body frame [rad]: drawn at the bottom
   int most_stressed_of = 1;  ///< load positions of a sector
   bool is_bonded = false;    ///< the tread to a rigid ring, which is drawn instead of the ground
+  Ground ground = {};
   /// Half the edge of a square view of the contact [m]; absent: the whole wheel.
   std::optional<double> window;
   NamedField scalar;  ///< in an SI unit without prefix, e.g. "von Mises stress" in "Pa"

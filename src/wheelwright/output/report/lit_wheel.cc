@@ -27,14 +27,20 @@ class Press {
       : grid_(lattice.grid()),
         lines_(lattice.nodes()[1] * lattice.grid().n_sectors),
         axial_nodes_(lattice.nodes()[2]) {
-    const double azimuth = picture.contact_azimuth;
+    const double azimuth = picture.contact_azimuth, radius = grid_.outer_radius;
+    const double level = radius + picture.ground.standing(radius).rise;
     for (int line = 0; line < lines_; ++line) {
       const double from_contact = line * lattice.spacing()[1] - azimuth;
       for (int axial = 0; axial < axial_nodes_; ++axial) {
         const double* u =
             &picture.displacement.values[3 * ring_node<3>(lattice, {lattice.nodes()[0] - 1, line, axial})];
         const double down = std::cos(azimuth) * u[0] + std::sin(azimuth) * u[1];
-        const double below = picture.magnification * down - grid_.outer_radius * (1 - std::cos(from_contact));
+        const double along = std::cos(azimuth) * u[1] - std::sin(azimuth) * u[0];
+        const double below =
+            picture.ground.is_flat()
+                ? picture.magnification * down - grid_.outer_radius * (1 - std::cos(from_contact))
+                : picture.magnification * down + radius * std::cos(from_contact) - level +
+                      picture.ground.height(radius * std::sin(from_contact) + picture.magnification * along);
         depths_.push_back(below > 0 && !picture.is_bonded ? below : 0);  // nothing for NaN
       }
     }
@@ -78,15 +84,21 @@ ColourScale scale_of(const std::vector<float>& values, const DeformedPicture<3>&
   return scale;
 }
 
-/// A rectangle of ground under the wheel.
-LitBody ground(const PolarGrid<3>& grid) {
+/// The ground under the wheel.
+LitBody lit_ground(const PolarGrid<3>& grid, const Ground& ground) {
   constexpr Rgb grey{0xe4, 0xe7, 0xea};
-  const double y = -grid.outer_radius, x = 1.05 * grid.outer_radius,
-               z = 0.5 * grid.width + 0.12 * grid.outer_radius;
-  return {{{-x, y, z}, {x, y, z}, {x, y, -z}, {-x, y, -z}},
-          {{0, 1, 2}, {0, 2, 3}},
-          std::vector<Rgb>(4, grey),
-          false};
+  const double radius = grid.outer_radius, x = 1.05 * radius, z = 0.5 * grid.width + 0.12 * radius;
+  const double level = radius + ground.standing(radius).rise;
+  LitBody body{{}, {}, {}, false};
+  for (const Vec<2>& place : ground.line(-x, x, 1e-3 * radius)) {
+    const int n = static_cast<int>(body.points.size());
+    for (const double at : {z, -z}) body.points.push_back({place[0], place[1] - level, at});
+    if (n == 0) continue;
+    body.triangles.push_back({n - 2, n, n + 1});
+    body.triangles.push_back({n - 2, n + 1, n - 1});
+  }
+  body.colours.assign(body.points.size(), grey);
+  return body;
 }
 
 std::string peak_text(const DeformedPicture<3>& picture) {
@@ -128,12 +140,14 @@ std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
                               const DeformedPicture<3>& picture) {
   const Press press(lattice, picture);
   const double x_down = std::cos(picture.contact_azimuth), y_down = std::sin(picture.contact_azimuth);
+  const double radius = lattice.grid().outer_radius, level = radius + picture.ground.standing(radius).rise;
   std::vector<Vec<3>> result = points;
   for (std::size_t k = 0; k < points.size(); ++k) {
     Vec<3>& x = result[k];
     for (int d = 0; d < 3; ++d) x[d] += picture.magnification * displacement[d][k];
     double up = press.at(points[k]);
-    const double depth = x_down * x[0] + y_down * x[1] - up - lattice.grid().outer_radius;
+    const double depth =
+        x_down * x[0] + y_down * x[1] - up - level + picture.ground.height(x_down * x[1] - y_down * x[0]);
     if (depth > 0 && !picture.is_bonded) up += depth;
     x[0] -= up * x_down;
     x[1] -= up * y_down;
@@ -152,7 +166,7 @@ std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
                                              picture.contact_azimuth);
   std::vector<LitBody> bodies{
       {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}};
-  if (!picture.is_bonded) bodies.insert(bodies.begin(), ground(grid));
+  if (!picture.is_bonded) bodies.insert(bodies.begin(), lit_ground(grid, picture.ground));
   const Image image = lit_image(bodies, wheel_camera(grid), image_pixels);
   const bool is_pressed = Press(lattice, picture).maximum() > 0.002 * grid.outer_radius;
   return deformed_document(

@@ -62,7 +62,39 @@ std::string force_text(double value, const std::string& unit) {
   return std::abs(value) < 1e5 ? fmt::format("{:.5g} {}", value, unit) : value_text(value, unit);
 }
 
-std::string ground_mark(const PictureView& view, double depth) {
+namespace {
+
+/// The outline of ground that is not flat, hatched below.
+std::string outline_mark(const PictureView& view, double radius, const Ground& ground) {
+  const double level = radius + ground.standing(radius).rise, right = view.left + view.size;
+  const double pixel = 1 / view.pixels_per_metre(), bottom = view.top + view.size;
+  const auto at = [&](const Vec<2>& place) { return view.pixel({place[0], level - place[1]}); };
+  const auto is_shown = [&](const Vec<2>& p) { return p[1] >= view.top && p[1] <= bottom + hatch_depth; };
+  std::string path, hatch;
+  bool pen_is_down = false;
+  for (const Vec<2>& place :
+       ground.line(view.centre[0] - view.half, view.centre[0] + view.half, 0.1 * pixel)) {
+    const Vec<2> p = at(place);
+    if (is_shown(p)) path += fmt::format("{}{:.1f} {:.1f}", pen_is_down ? "L" : "M", p[0], p[1] + 1);
+    pen_is_down = is_shown(p);
+  }
+  for (double x = view.left + hatch_spacing; x <= right; x += hatch_spacing) {
+    const double along = view.centre[0] + (x - view.left - 0.5 * view.size) * pixel;
+    const double height = ground.height(along);
+    if (!std::isfinite(height)) continue;
+    if (const Vec<2> p = at({along, height}); is_shown(p))
+      hatch += fmt::format("M{:.0f} {:.1f}l-{} {}", x, p[1], hatch_depth, hatch_depth);
+  }
+  return fmt::format(
+      "<path fill=\"none\" stroke=\"#8c959f\" d=\"{}\"/>\n"
+      "<path fill=\"none\" stroke=\"{}\" stroke-width=\"2\" d=\"{}\"/>\n",
+      hatch, ink, path);
+}
+
+}  // namespace
+
+std::string ground_mark(const PictureView& view, double depth, const Ground& ground) {
+  if (!ground.is_flat()) return outline_mark(view, depth, ground);
   const double y = view.pixel({0, depth})[1], right = view.left + view.size;
   std::string hatch;
   for (double x = view.left + hatch_spacing; x <= right; x += hatch_spacing)

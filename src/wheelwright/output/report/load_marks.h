@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "wheelwright/mechanics/state/ground.h"
 #include "wheelwright/mechanics/state/rim.h"
 #include "wheelwright/output/report/picture_view.h"
 #include "wheelwright/output/report/pressure_csv.h"
@@ -12,9 +13,9 @@ namespace wheelwright {
 
 // Marks in a picture of the loaded wheel besides the material, as SVG in pixels.
 
-/// The ground as a hatched line from edge to edge of the view, `depth` below the axle of the undeformed wheel
-/// [m].
-std::string ground_mark(const PictureView& view, double depth);
+/// The ground as a hatched line from edge to edge of the view, on which a wheel of the radius `depth` stands
+/// whose axle is at the origin [m].
+std::string ground_mark(const PictureView& view, double depth, const Ground& ground = {});
 
 /// The rigid ring around a bonded tread: a circle about the axle of the undeformed wheel, hatched outside,
 /// clipped to the view.

@@ -242,20 +242,21 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
   for (const auto& point : contact.points) {
     const double* observed =
         state.observations().column(position * solver.tread_surface().n_columns + point.column);
-    const auto in_ground_frame = [&](int row) {
+    const auto in_contact_frame = [&](int row) {
       Vec<dim> v;
       std::copy_n(observed + row, dim, v.begin());
-      return point.frame.template to_ground<dim>(v);
+      return point.frame.template to_contact<dim>(v);
     };
-    const double approach = in_ground_frame(rows.displacement(point.point))[0] +
-                            wheelwright::displacement<dim>(contact.rim, point.position)[0];
+    const Vec<dim> of_rim = point.frame.template ground_to_contact<dim>(
+        wheelwright::displacement<dim>(contact.rim, point.position));
+    const double approach = in_contact_frame(rows.displacement(point.point))[0] + of_rim[0];
     result.push_back({.position = position,
                       .azimuth = std::atan2(point.position[1], point.position[0]),
                       .x = point.position[1],
                       .weight = point.weight,
                       .pressure = -point.traction[0],
                       .friction = point.traction[1],
-                      .normal_stress = in_ground_frame(rows.traction(point.point))[0],
+                      .normal_stress = in_contact_frame(rows.traction(point.point))[0],
                       .gap = point.gap - approach,
                       .cell = per_column * point.column + cells[point.point]});
     if constexpr (dim == 3) {
@@ -314,6 +315,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .stress = stress_field(solver.model(), state.domain(), u),
           .ground_azimuth = ground_azimuth(solver, position),
           .is_bonded = solver.model().contact.counterpart == Counterpart::ring,
+          .ground = state.model().ground,
           .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,
           .travel = contact.travel(),
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,

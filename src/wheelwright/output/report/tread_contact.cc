@@ -36,20 +36,25 @@ TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<di
       dim, u.begin());
   const Vec<dim> place = rotated<dim>(surface.points[point].position, turn), elastic = rotated<dim>(u, turn);
   const Vec<dim> moved = displacement<dim>(state.contacts()[position].rim, place) + elastic;
+  const Ground& on = state.model().ground;
+  const double height = grid.outer_radius + on.standing(grid.outer_radius).rise;
+  const auto [gap, tilt] = on.nearest({place[1], height - place[0]});
+  const GroundFrame contact{0, 0, tilt};
   return {.position = rotated<dim>(place, ground),
           .displacement = rotated<dim>(moved, ground),
           .traction = {},
           .pressure = 0,
           .friction = 0,
-          .gap = grid.outer_radius - place[0] - moved[0],
+          .gap = gap - contact.ground_to_contact<dim>(moved)[0],
           .weight = surface.points[point].weight};
 }
 
 template <int dim>
-void set_traction(const Vec<dim>& traction, double ground, TreadContactPoint<dim>& point) {
-  point.traction = rotated<dim>(traction, ground);
-  point.pressure = -traction[0];
-  point.friction = traction[1];
+void set_traction(const typename ContactPatch<dim>::Point& contact, double ground,
+                  TreadContactPoint<dim>& point) {
+  point.traction = rotated<dim>(contact.ground_traction(), ground);
+  point.pressure = -contact.traction[0];
+  point.friction = contact.traction[1];
 }
 
 /// Under a position that was solved for: all points of the columns in the contact zone, and the middle one of
@@ -72,7 +77,7 @@ TreadContact<2> tread_of_solved(const StateSolver<2>& solver, const State<2>& st
   }
   const double ground = state.positions().grounds[position].azimuth(solver.model().grid);
   for (const auto& point : state.contacts()[position].points)
-    set_traction<2>(point.traction, ground, tread[first[point.column] + point.point]);
+    set_traction<2>(point, ground, tread[first[point.column] + point.point]);
   return tread;
 }
 
@@ -108,8 +113,7 @@ TreadContact<3> tread_of_solved(const StateSolver<3>& solver, const State<3>& st
   }
   const double ground = state.positions().grounds[position].azimuth(solver.model().grid);
   for (const auto& point : state.contacts()[position].points)
-    set_traction<3>(point.traction, ground,
-                    tread[place_in_tread[point.column * surface.points.size() + point.point]]);
+    set_traction<3>(point, ground, tread[place_in_tread[point.column * surface.points.size() + point.point]]);
   return tread;
 }
 
@@ -226,26 +230,37 @@ void write_tread_vtu(const std::filesystem::path& path, const TreadContact<dim>&
 }
 
 template <int dim>
-void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& grid, double ground_azimuth) {
-  const double top = grid.outer_radius, half = grid.outer_radius, bottom = 1.05 * grid.outer_radius;
+void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& grid, double ground_azimuth,
+                      const Ground& ground) {
+  constexpr double thickness = 0.05, deviation = 1e-4;  // in outer radii
+  const double radius = grid.outer_radius, level = radius + ground.standing(radius).rise;
+  const auto line = ground.line(-radius, radius, deviation * radius);
+  const double beside = dim == 2 ? 0 : 0.1 * radius;
+  double lowest = 0;
+  for (const Vec<2>& place : line) lowest = std::min(lowest, place[1]);
+  const double bottom = (1 + thickness) * radius + (level - radius) - lowest;
   std::vector<Vec<dim>> corners;
-  const auto add_rectangle = [&](double z) {
-    for (const Vec<2>& corner : {Vec<2>{top, -half}, {bottom, -half}, {bottom, half}, {top, half}}) {
+  const auto add_face = [&](const Vec<2>& from, const Vec<2>& to, double z) {
+    for (const Vec<2>& corner :
+         {Vec<2>{level - from[1], from[0]}, {bottom, from[0]}, {bottom, to[0]}, {level - to[1], to[0]}}) {
       Vec<dim> x{corner[0], corner[1]};
       if constexpr (dim == 3) x[2] = z;
       corners.push_back(rotated<dim>(x, ground_azimuth));
     }
   };
-  const double beside = dim == 2 ? 0 : 0.1 * grid.outer_radius;
-  add_rectangle(-beside);
-  if constexpr (dim == 3) add_rectangle(grid.width + beside);
+  std::vector<std::int32_t> ends;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (line[i][0] == line[i - 1][0]) continue;
+    add_face(line[i - 1], line[i], -beside);
+    if constexpr (dim == 3) add_face(line[i - 1], line[i], grid.width + beside);
+    ends.push_back(static_cast<std::int32_t>(corners.size()));
+  }
   std::vector<std::int32_t> connectivity(corners.size());
   std::iota(connectivity.begin(), connectivity.end(), 0);
   AppendedArrays arrays(0);
-  const std::string mesh =
-      add_mesh(coordinates<dim>(corners), connectivity, {static_cast<std::int32_t>(corners.size())},
-               {dim == 2 ? vtk_quadrilateral : vtk_hexahedron}, arrays);
-  write_atomically(path, vtu_parts(vtu_beginning(corners.size(), 1, mesh), {arrays.bytes()}));
+  const std::vector<std::uint8_t> kinds(ends.size(), dim == 2 ? vtk_quadrilateral : vtk_hexahedron);
+  const std::string mesh = add_mesh(coordinates<dim>(corners), connectivity, ends, kinds, arrays);
+  write_atomically(path, vtu_parts(vtu_beginning(corners.size(), ends.size(), mesh), {arrays.bytes()}));
 }
 
 template decltype(all_tread_contacts<2>) all_tread_contacts<2>;

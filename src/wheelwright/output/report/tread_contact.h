@@ -37,6 +37,7 @@ void write_tread_vtu(const std::filesystem::path& path, const TreadContact<dim>&
 /// A piece of the ground for ParaView: a rectangle, or in 3D a block, as long as the wheel, that the
 /// undeformed tread touches at this azimuth of the body frame [rad]. Throws OutputError.
 template <int dim>
-void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& grid, double ground_azimuth);
+void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& grid, double ground_azimuth,
+                      const Ground& ground = {});
 
 }  // namespace wheelwright

@@ -24,6 +24,7 @@ DeformedPicture<dim> stress_picture(const PictureNames& names, const PositionFie
           .contact_azimuth = fields.ground_azimuth,
           .most_stressed_of = names.n_positions,
           .is_bonded = fields.is_bonded,
+          .ground = fields.ground,
           .window = {},
           .scalar = std::move(stress),
           .scale = ScaleKind::without_tail,

@@ -123,9 +123,10 @@ ContactSummary contact_summary(const ContactPatch<dim>& contact) {
   std::vector<GroundPoint> points;
   for (const auto& point : contact.points) {
     const double pressure = -point.traction[0];
-    summary.radial_force += point.weight * pressure;
+    const Vec<dim> on_ground = point.ground_traction();
+    summary.radial_force -= point.weight * on_ground[0];
     summary.peak_pressure = std::max(summary.peak_pressure, pressure);
-    summary.friction_force += point.weight * point.traction[1];
+    summary.friction_force += point.weight * on_ground[1];
     summary.peak_friction = std::max(summary.peak_friction, std::abs(point.traction[1]));
     points.push_back({point.position[1], point.augmented[0]});
   }

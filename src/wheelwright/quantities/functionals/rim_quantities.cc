@@ -66,7 +66,8 @@ FunctionalValue<dim> GroundForce<dim>::evaluate(const StateSolver<dim>&, const L
     double force = 0;
     std::vector<Vec<dim>> by_traction;
     for (const auto& point : contact.points) {
-      Vec<dim> slope = displacement<dim>(unit_motion(way_), point.position);
+      Vec<dim> slope =
+          point.frame.template ground_to_contact<dim>(displacement<dim>(unit_motion(way_), point.position));
       for (double& x : slope) x *= -point.weight;
       force += dot<dim>(slope, point.traction);
       by_traction.push_back(slope);

@@ -30,6 +30,7 @@ struct CommandField {
   std::string key;      ///< with its unit, e.g. "radius_m"
   std::string meaning;  ///< half a line
   FieldPlace place;
+  bool has_default = false;  ///< whether it may be absent although its type is not optional
 };
 using CommandFields = std::vector<CommandField>;
 

@@ -81,7 +81,8 @@ std::optional<Refusal> read(const Json& json, const CommandFields& fields) {
   for (const CommandField& field : fields) {
     const auto problem = std::visit(
         [&](auto* value) -> const char* {
-          if (!json.contains(field.key)) return may_be_absent(value) ? nullptr : "missing";
+          if (!json.contains(field.key))
+            return field.has_default || may_be_absent(value) ? nullptr : "missing";
           ++n_read;
           return read(json[field.key], *value) ? nullptr : "has the wrong type or value";
         },

@@ -21,7 +21,8 @@ std::string table(const CommandFields& fields) {
   std::string text = "\n| key | value | meaning |\n|---|---|---|\n";
   for (const CommandField& field : fields) {
     const std::string type =
-        std::visit([](const auto* place) { return std::string(type_of(place)); }, field.place);
+        std::visit([](const auto* place) { return std::string(type_of(place)); }, field.place) +
+        (field.has_default ? ", optional" : "");
     text += fmt::format("| `{}` | {} | {} |\n", field.key, type, field.meaning);
   }
   return text;

@@ -21,12 +21,15 @@ CommandResult changed(RunControl& run, const Case& c, const std::string& what) {
 
 }  // namespace
 
+/// Those of the ground may be absent: then it is flat.
 CommandFields load_fields(Load& load) {
   CommandFields fields;
   for (const Key<Load>& key : load_values(load))
     visit_value(key, load, [&](auto& value) {
+      constexpr bool is_optional = requires { value.reset(); };
       if constexpr (requires { CommandField{"", "", &value}; })
-        fields.push_back({json_name(key), std::string(key.meaning), &value});
+        fields.push_back({json_name(key), std::string(key.meaning), &value,
+                          !is_optional && key.name.starts_with("ground")});
     });
   return fields;
 }

@@ -9,6 +9,7 @@
 
 #include "wheelwright/case/case_key.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/ground_of.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/overload.h"
@@ -34,7 +35,9 @@ std::string load_report(const Case& c) {
                                : line("load", fmt::format("{:.6g} N on {:.6g} m = {:.6g} N/m", c.load.force,
                                                           c.wheel.width, load_per_metre(c)));
   const std::string speed = c.load.speed > 0 ? line("speed", fmt::format("{:.6g} m/s", c.load.speed)) : "";
-  return load + speed +
+  const std::string ground =
+      c.load.ground == "flat" ? "" : line("ground", fmt::format("{}", ground_text(c.load)));
+  return load + speed + ground +
          line("load positions",
               fmt::format("{} per sector, {} around the wheel", c.load.positions, total_load_positions(c)));
 }
@@ -66,7 +69,10 @@ std::string contact_report(const Case& c) {
   const std::string levels = line(
       "tread levels", fmt::format("{} in a run, {} in results", tread_levels(c), tread_levels_of_results(c)));
   if (c.load.travel || c.contact.with == Counterpart::ring) return levels;
-  return levels + line("Hertz half-width", fmt::format("{:.4g} mm", hertz_half_width(c) * 1e3)) +
+  const double radius = contact_radius(c);
+  const std::string on_ground =
+      radius == c.wheel.outer_radius ? "" : line("Hertz radius", fmt::format("{:.4g} mm", radius * 1e3));
+  return levels + on_ground + line("Hertz half-width", fmt::format("{:.4g} mm", hertz_half_width(c) * 1e3)) +
          line("Hertz peak pressure", fmt::format("{:.4g} MPa", hertz_peak_pressure(c) / 1e6)) +
          line("cells in the contact",
               fmt::format("{:.1f} of {:.4g} mm", cells_per_contact_patch(c), tread_cell_width(c) * 1e3));
@@ -222,6 +228,15 @@ std::vector<std::string> warnings(const Case& c) {
   const Case narrowest = std::ranges::min(single_load_cases(run), {}, cells_per_contact_patch);
   if (const double cells = cells_per_contact_patch(narrowest); cells < least_cells_per_contact_patch)
     result.push_back(coarse_contact_warning(narrowest, cells));
+  for (const Case& single : single_load_cases(run))
+    if (const double a = hertz_half_width(single);
+        !single.load.travel && single.load.ground == "internal_drum" && a > 0.3 * c.wheel.outer_radius) {
+      result.push_back(fmt::format(
+          "inside the drum the contact would be {:.2g} times as wide as the wheel's radius: Hertz's "
+          "theory does not hold for it, and linear theory neglects how its ends turn",
+          2 * a / c.wheel.outer_radius));
+      break;
+    }
   if (wants_uniformity(c) && c.grid.angular_cells % total_load_positions(c) != 0)
     result.push_back(fmt::format(
         "load positions between columns of cells use different points of the tread, which affects the "

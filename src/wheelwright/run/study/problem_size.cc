@@ -19,7 +19,7 @@ bool wants_dual(const Case& c) {
 double contact_columns(const Case& c) {
   const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
   const double half_width = c.contact.with == Counterpart::ring ? likely_half_width(c)
-                            : c.load.travel ? std::sqrt(2 * c.wheel.outer_radius * *c.load.travel)
+                            : c.load.travel ? std::sqrt(2 * contact_radius(c) * *c.load.travel)
                                             : hertz_half_width(c);
   constexpr double margin = 4;
   return std::min(2 * half_width / cell + margin, static_cast<double>(c.grid.angular_cells));

@@ -7,6 +7,7 @@
 
 #include "wheelwright/cad/drawing/composed_level_set.h"
 #include "wheelwright/case/drawn_shapes.h"
+#include "wheelwright/case/ground_of.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
@@ -47,6 +48,7 @@ WheelLoads<dim> applied_loads(const Case& c, RollingModel<dim> wheel) {
   loads.distributed.body_force[1] = along_ground;
   loads.distributed.hole_pressure = c.load.hole_pressure;
   loads.distributed.angular_speed = c.load.speed / c.wheel.outer_radius;
+  loads.ground = ground_of(c.load);
   wheel.loads() = loads;
   for (const auto& [key, value] : c.load.own) key->effect.act(value, std::as_const(wheel), loads);
   return loads;

@@ -36,13 +36,14 @@ Json load_cases_json(const Case& c) {
   return loads;
 }
 
-/// The numbers of a load that a page can change, in the units that it displays.
+/// The numbers of a load that a page can change, in the units that it displays. Flat ground has none.
 Json load_keys_json(const Load& load) {
   constexpr double millimetres = 1e3;
   Json keys = Json::array();
   for (const Key<Load>& key : load_values(load)) {
     const auto* number = std::get_if<NumberField<Load>>(&key.field);
     if (!number && !std::holds_alternative<OptionalNumberField<Load>>(key.field)) continue;
+    if (load.ground == "flat" && key.name.starts_with("ground_")) continue;
     const bool is_length = key.unit == "m";
     const double factor = is_length ? millimetres : 1 / (number ? number->factor : 1);
     std::string words(key.name);
@@ -107,7 +108,8 @@ Json wheel_json(const WatchedShape<dim>& shape) {
           {"hole_inner_radius_m", room.inner},
           {"hole_outer_radius_m", room.outer},
           {"cell_m", grid.resolution()},
-          {"stands_on_ground", shape.source->contact.with == Counterpart::ground}};
+          {"stands_on_ground",
+           shape.source->contact.with == Counterpart::ground && shape.source->load.ground == "flat"}};
 }
 
 template <int dim>

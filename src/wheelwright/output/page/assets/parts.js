@@ -246,10 +246,30 @@ const parts = (() => {
     return Object.assign(paint, { kinds, take, takeGhost, showGhost, draw, resize, fit });
   }
 
+  // Ground that is not flat, by its outline: along it and up from the axle.
+  function drawOutline(context, size, outline, outer) {
+    const scale = 0.45 * size / outer, x = ([along]) => 0.5 * size + scale * along, y = ([, up]) => 0.5 * size - scale * up;
+    context.fillStyle = colour("--panel");
+    context.beginPath();
+    context.moveTo(x(outline[0]), 2 * size);
+    for (const place of outline) context.lineTo(x(place), y(place));
+    context.lineTo(x(outline[outline.length - 1]), 2 * size);
+    context.fill();
+    context.strokeStyle = colour("--ink");
+    context.lineWidth = size / 300;
+    context.beginPath();
+    for (const place of outline) context.lineTo(x(place), y(place));
+    context.stroke();
+  }
+
   // The ground, flat and solid. Near the contact, magnified displacements move the tread slightly below it.
   function drawGround(canvas, run) {
     const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
     const context = canvas.getContext("2d"), level = 0.95 * size, step = size / 60;
+    if (run.fields.ground_m) {
+      drawOutline(context, size, run.fields.ground_m, run.outer_radius_m);
+      return;
+    }
     context.fillStyle = colour("--panel");
     context.fillRect(0, level, size, size - level);
     context.strokeStyle = colour("--ink");
