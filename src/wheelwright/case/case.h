@@ -37,11 +37,28 @@ struct Wheel {
   bool operator==(const Wheel&) const = default;
 };
 
+/// The constants of a material whose axes are the radius, the azimuth and the axle, in place of those of an
+/// isotropic one: OrthotropicMaterial. All are absent if the material is isotropic.
+struct OrthotropicConstants {
+  std::optional<double> youngs_modulus_radial, youngs_modulus_azimuthal, youngs_modulus_axial;  ///< [Pa]
+  /// The first axis is that of the stress, the second that of the contraction.
+  std::optional<double> poissons_ratio_radial_azimuthal, poissons_ratio_radial_axial,
+      poissons_ratio_azimuthal_axial;
+  std::optional<double> shear_modulus_radial_azimuthal;                             ///< [Pa]
+  std::optional<double> shear_modulus_radial_axial, shear_modulus_azimuthal_axial;  ///< in 3D [Pa]
+  bool operator==(const OrthotropicConstants&) const = default;
+};
+
+/// What lies in no layer of the ring.
+struct RingMaterial : Material, OrthotropicConstants {
+  bool operator==(const RingMaterial&) const = default;
+};
+
 /// Whether holes may lie in a layer of the ring.
 enum class LayerHoles { allowed, none };
 
 /// Everything between two radii, of another material than the rest of the ring.
-struct MaterialLayer {
+struct MaterialLayer : OrthotropicConstants {
   std::string name = {};
   std::optional<double> inner_radius = {};  ///< absent: the rim
   std::optional<double> outer_radius = {};  ///< absent: the tread
@@ -423,7 +440,7 @@ struct Vocabulary {
 struct Case {
   std::string title;
   Wheel wheel;
-  Material material;  ///< of what lies in no layer
+  RingMaterial material;
   std::vector<MaterialLayer> layers;
   Load load;
   Contact contact;

@@ -29,9 +29,9 @@ struct CaseKey {
 
 using CaseKeys = std::vector<CaseKey>;
 
-/// The names of the keys that set a member, the last declared one first.
-template <class Struct, class Value>
-std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, Value Struct::*member) {
+/// The names of the keys that set a member of a struct or of its base, the last declared one first.
+template <class Struct, class Base, class Value>
+std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, Value Base::*member) {
   const Struct sample{};
   std::vector<std::string_view> names;
   for (const Key<Struct>& key : keys)
@@ -40,12 +40,24 @@ std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, Val
   return names;
 }
 
-/// Calls visit(section) for the section of the case file that sets the members of Struct.
+template <class SomeSection>
+struct StructOf;
+template <class Struct>
+struct StructOf<Section<Struct>> {
+  using type = Struct;
+};
+template <class Struct>
+struct StructOf<SectionArray<Struct>> {
+  using type = Struct;
+};
+
+/// Calls visit(section) for the section of the case file that sets the members of Struct, or of a struct
+/// derived from it.
 template <class Struct, class Visitor>
 void for_section_of(Visitor&& visit) {
   for_each_section([&](const auto& section) {
-    using Of = std::decay_t<decltype(section)>;
-    if constexpr (std::same_as<Of, Section<Struct>> || std::same_as<Of, SectionArray<Struct>>) visit(section);
+    using Of = typename StructOf<std::decay_t<decltype(section)>>::type;
+    if constexpr (std::derived_from<Of, Struct>) visit(section);
   });
 }
 

@@ -171,8 +171,8 @@ struct Key {
                OptionalPointField<Struct>, PointsField<Struct>, ChoiceField<Struct>, QuantityField<Struct>>
       field;
   std::string_view meaning;
-  Presence presence = Presence::has_default;
-  std::string_view instead_of = {};  ///< the key of the same section that this one can replace
+  Presence presence = Presence::has_default;  ///< required: unless a key instead of it is given
+  std::string_view instead_of = {};           ///< the key of the same section that this one can replace
 };
 
 /// A table of the file, [name]; the empty name is the file's top level.
@@ -205,7 +205,7 @@ struct SectionArray {
 
 const Section<Case>& general_section();
 const Section<Wheel>& wheel_section();
-const Section<Material>& material_section();
+const Section<RingMaterial>& material_section();
 const SectionArray<MaterialLayer>& material_layer_sections();
 const Section<Load>& load_section();
 const SectionArray<CaseLoad>& load_case_sections();

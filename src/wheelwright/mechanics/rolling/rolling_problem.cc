@@ -45,11 +45,17 @@ std::optional<Failure> unsupported_material(const RollingModel<dim>& model) {
                      "materials meet in the rows that are condensed at the tread"};
   for (int row = 0; row < model.grid.cells[0]; ++row) {
     const MaterialLaw<dim>& law = model.materials.in_row(model.grid, row);
-    if (dim == 3 && law.isotropic() && law.isotropic()->plane == Plane::stress)
+    const Material* isotropic = law.isotropic();
+    const OrthotropicMaterial* orthotropic = law.orthotropic();
+    if (dim == 3 && ((isotropic && isotropic->plane == Plane::stress) ||
+                     (orthotropic && orthotropic->plane == Plane::stress)))
       return Failure{FailureReason::unsupported_model, "plane stress is for two dimensions only"};
     if (const auto fault = fault_of_linear_law<dim>(law))
       return Failure{FailureReason::unsupported_model,
                      "the material law does not suit linear elasticity: " + *fault};
+    if (orthotropic && orthotropic->locks())
+      return Failure{FailureReason::unsupported_model,
+                     "an orthotropic material is so nearly incompressible that the elements lock"};
   }
   return {};
 }
