@@ -418,6 +418,7 @@ Case case_with(const std::string& header) {
   c.constraints[0].at_least = 1;
   if (header == "[[load.case]]") c.load.cases = {load_case_sections().example};
   if (header == "[[material.layer]]") c.layers = {material_layer_sections().example};
+  if (header == "[[material.cord]]") c.cords = {material_cord_sections().example};
   if (header == "[[objective.term]]") c.objective.terms = {objective_term_sections().example};
   return c;
 }

@@ -141,6 +141,12 @@ Case with_tables(Case c, const SectionArray<Struct>& section) {
     tables[0].outer_radius = 0.22;
     make_orthotropic(tables[1]);
   }
+  if constexpr (std::is_same_v<Struct, MaterialCord>) {  // another place for it is at 0.25 m
+    c.layers = {material_layer_sections().example};
+    c.layers[0].inner_radius = 0.235;
+    c.layers[0].outer_radius = 0.255;
+    c.layers[0].holes = LayerHoles::none;
+  }
   if constexpr (requires { tables[0].order; })
     for (std::size_t i = 0; i < tables.size(); ++i) tables[i].order = static_cast<int>(i) + 1;
   if (c.holes == Holes{}) c.holes.rings = a_ring;

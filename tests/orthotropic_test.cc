@@ -344,7 +344,13 @@ TEST(OrthotropicWheel, OfIsotropicConstantsIsTheIsotropicOne) {
   expect_the_same<3>({200e6, 0.3, Plane::strain, 1100});
 }
 
-/// With faces that do not move along the axle a wheel of constant section is in plane strain.
+template <int dim>
+Materials<dim> with_cord(const Materials<dim>& materials, double radius, double stiffness) {
+  return Materials<dim>(materials.layers(), {{radius, stiffness}});
+}
+
+/// With faces that do not move along the axle a wheel of constant section is in plane strain, also with a
+/// cord.
 TEST(OrthotropicWheel, BetweenFixedFacesIsInPlaneStrain) {
   auto plane = lopsided<2>();
   plane.grid.cells = {7, 8};
@@ -359,6 +365,8 @@ TEST(OrthotropicWheel, BetweenFixedFacesIsInPlaneStrain) {
   solid.materials = of<3>(band);
   solid.load = plane.load * plane.grid.width;
   solid.torque = plane.torque * plane.grid.width;
+  plane.materials = with_cord(plane.materials, 0.32, 3e6);
+  solid.materials = with_cord(solid.materials, 0.32, 3e6);
   const Circle hole{0.2581, 0.47 * plane.grid.sector_angle(), 0.03};
   const auto of_plane = RollingProblem<2>::create(plane);
   const auto of_solid = RollingProblem<3>::create(solid);
@@ -481,6 +489,43 @@ TEST(OrthotropicWheel, PressesTheGroundAsItsContactModulusSays) {
   }
 }
 
+/// Of a wheel with a cord in the band above its holes: cords do not end at edges of holes.
+TEST(Cord, DoesNotSpoilTheShapeGradient) {
+  auto model = paper_model(14, 192);
+  model.n_positions = 3;
+  model.contact.friction = 0.3;
+  model.torque = 100;
+  const auto without = RollingProblem<2>::create(model);
+  model.materials = with_cord<2>(model.materials, 0.32, 2e7);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem && without);
+  for (const WeightedSum<2>& terms :
+       {testing::strain_energy_alone(), WeightedSum<2>{{1, std::make_shared<Travel<2>>()}}}) {
+    const auto test = testing::generic_taylor_test(*problem, terms);
+    ASSERT_TRUE(test) << test.failure().detail;
+    for (const double order : test->orders) EXPECT_GT(order, 1.9);
+  }
+  const auto psi = testing::generic_hole(model.grid);
+  const auto stiff = testing::all_states<2>(*problem, psi), soft = testing::all_states<2>(*without, psi);
+  ASSERT_TRUE(stiff && soft);
+  EXPECT_LT((*stiff)->contacts()[0].travel(), 0.95 * (*soft)->contacts()[0].travel());
+}
+
+TEST(Cord, MustLieInMaterialBelowTheCondensedRows) {
+  auto model = paper_model(14, 192);
+  const auto materials = model.materials;
+  model.materials = with_cord<2>(materials, 0.34, 1e6);
+  EXPECT_FALSE(RollingProblem<2>::create(model));
+  model.materials = with_cord<2>(materials, 0.3211, 1e6);
+  EXPECT_FALSE(RollingProblem<2>::create(model));
+  model.materials = with_cord<2>(materials, 0.27, 1e6);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto state = testing::all_states<2>(*problem, testing::generic_hole(model.grid));
+  ASSERT_FALSE(state);
+  EXPECT_EQ(state.failure().reason, FailureReason::protected_band);
+}
+
 constexpr const char* some_band =
     "youngs_modulus_radial = 80e6\nyoungs_modulus_azimuthal = 900e6\nyoungs_modulus_axial = 200e6\n"
     "poissons_ratio_radial_azimuthal = 0.05\npoissons_ratio_radial_axial = 0.31\n"
@@ -543,6 +588,26 @@ TEST(OrthotropicCase, ThatCannotBeIsRefusedByKey) {
       parse_case(std::string("[wheel]\ndimension = 3\n[material]\n") + some_band, "solid.toml");
   EXPECT_FALSE(solid.value);
   EXPECT_NE(solid.problems.front().text().find("shear_modulus_azimuthal_axial"), std::string::npos);
+}
+
+TEST(OrthotropicCase, HasCordsWhereThereAreNoHoles) {
+  const auto cord = [](const std::string& radius) {
+    return "[[material.cord]]\nradius = " + radius + "\nstiffness = \"2 kN/mm\"\n";
+  };
+  const std::string grid = "[grid]\nradial_cells = 20\n[optimizer]\ntread_band = 0.01\n",
+                    layer =
+                        "[[material.layer]]\ninner_radius = 0.07\nouter_radius = 0.08\nyoungs_modulus = "
+                        "3e6\npoissons_ratio = 0.4\nholes = \"none\"\n";
+  const auto good = case_of(layer + cord("0.0775") + cord("0.095"), grid);
+  ASSERT_TRUE(good.value) << good.problems.front().text();
+  const auto found = materials<2>(*good.value);
+  ASSERT_EQ(found.cords().size(), 2u);
+  EXPECT_EQ(found.cords()[0].stiffness, 2e6);
+  for (const char* radius : {"0.0771", "0.07", "0.085", "0.1", "0.05", "0.0999"}) {
+    const auto refused = case_of(layer + cord(radius), grid);
+    EXPECT_FALSE(refused.value) << radius;
+    EXPECT_EQ(refused.problems.front().key, "material.cord[1].radius") << refused.problems.front().text();
+  }
 }
 
 /// New holes change stresses in a way that is known only in isotropic materials.

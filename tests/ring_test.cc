@@ -367,10 +367,12 @@ PolarStiffness polar_stiffness(const OrthotropicMaterial& m) {
 
 /// The displacement at the tread of a ring of layers with polar axes under the pressure there. In every layer
 /// c_rr (u'' + u' / r) = c_tt u / r^2: u = A r^k + B r^-k with k = sqrt(c_tt / c_rr), sigma_r = (c_rt + k
-/// c_rr) A r^(k-1) + (c_rt - k c_rr) B r^(-k-1). Bonded or free at the inner radius.
+/// c_rr) A r^(k-1) + (c_rt - k c_rr) B r^(-k-1). Bonded or free at the inner radius. On
+/// the outer radius of every layer but the last lie cords of this stiffness [N/m]: sigma_r rises there by
+/// stiffness u / r^2.
 double displacement_of_polar_layers(double inner,
                                     const std::vector<std::pair<double, PolarStiffness>>& layers,
-                                    bool is_bonded) {
+                                    bool is_bonded, double cords = 0) {
   const int n = 2 * static_cast<int>(layers.size());
   Matrix a(n, n), b(n, 1);
   const double unit = layers[0].second.rr, tread = layers.back().first;  // r in units of the tread's
@@ -394,6 +396,8 @@ double displacement_of_polar_layers(double inner,
       put(row, layer + side, displacements(layers[layer + side].second, r), side == 0 ? 1 : -1);
       put(row + 1, layer + side, stresses(layers[layer + side].second, r), side == 0 ? 1 : -1);
     }
+    const auto below = displacements(layers[layer].second, r);
+    for (int i = 0; i < 2; ++i) a(row + 1, 2 * layer + i) += cords * tread / (r * r) / unit * below[i];
     row += 2;
   }
   put(row, static_cast<int>(layers.size()) - 1, stresses(layers.back().second, tread), 1);
@@ -457,6 +461,49 @@ TEST(Ring, OrthotropicLayers_UnderPressure_MatchThePowersOfTheRadius) {
     EXPECT_NEAR(ring.outer_displacement() / exact, 1, 1e-5);
     EXPECT_NEAR(ring.strain_energy() / (-std::numbers::pi * 0.34 * pressure * exact), 1, 1e-5);
   }
+}
+
+/// A cord of any stiffness in the ring; a very stiff one is as good as a rim.
+TEST(Ring, RingWithACord_UnderPressure_HasTheJumpOfItsForce) {
+  const Material rubber{20e6, 0.4};
+  const double young = rubber.youngs_modulus, nu = rubber.poissons_ratio, shear = rubber.mu();
+  const PolarStiffness c = polar_stiffness({young, young, young, nu, nu, nu, shear});
+  const auto law = std::make_shared<IsotropicLaw<2>>(rubber);
+  for (const int line : {1, 8, 15}) {
+    const double radius = 0.2 + line * 0.14 / 16;
+    double remaining[2] = {};
+    for (const double stiffness : {1e5, 1e7, 1e10, 1e12}) {
+      SCOPED_TRACE(::testing::Message() << line << ", " << stiffness);
+      auto model = pressed_model(16);
+      model.materials = Materials<2>(std::vector<Materials<2>::Layer>{{0, law}}, {{radius, stiffness}});
+      const PressedRing ring(model, solid(model.grid));
+      const double exact = displacement_of_polar_layers(0.2, {{radius, c}, {0.34, c}}, true, stiffness);
+      EXPECT_NEAR(ring.outer_displacement() / exact, 1, 1e-5);
+      EXPECT_NEAR(ring.strain_energy() / (-std::numbers::pi * 0.34 * pressure * exact), 1, 1e-5);
+      const double rigid = displacement_of_polar_layers(radius, {{0.34, c}}, true);
+      if (stiffness >= 1e10) remaining[stiffness > 1e11] = std::abs(exact / rigid - 1);
+    }
+    EXPECT_LT(remaining[0], 0.1);
+    EXPECT_NEAR(remaining[0] / remaining[1], 100, 5);
+  }
+}
+
+/// A free inner edge that cuts cells beside the cord, where the ghost penalty ends: the traction jumps there.
+TEST(Ring, RingWithACord_AndACutInnerEdge_HasTheJumpOfItsForce) {
+  const Material rubber{20e6, 0.4};
+  const double young = rubber.youngs_modulus, nu = rubber.poissons_ratio;
+  const PolarStiffness c = polar_stiffness({young, young, young, nu, nu, nu, rubber.mu()});
+  for (const double fraction : {0.1, 0.63, 0.9, 1 - 1e-6})
+    for (const double stiffness : {1e6, 1e9}) {
+      SCOPED_TRACE(::testing::Message() << fraction << ", " << stiffness);
+      const double radius = 0.34 - 15 * 0.14 / (16 - fraction);
+      const PressedRing ring = free_ring(
+          16, fraction,
+          Materials<2>(std::vector<Materials<2>::Layer>{{0, std::make_shared<IsotropicLaw<2>>(rubber)}},
+                       {{radius, stiffness}}));
+      const double exact = displacement_of_polar_layers(0.2, {{radius, c}, {0.34, c}}, false, stiffness);
+      EXPECT_NEAR(ring.outer_displacement() / exact, 1, 2e-5);
+    }
 }
 
 /// A free inner edge that cuts cells beside the interface, at which the ghost penalty ends.

@@ -69,6 +69,13 @@ struct MaterialLayer : OrthotropicConstants {
   bool operator==(const MaterialLayer&) const = default;
 };
 
+/// Thin cords side by side along a circle of the ring.
+struct MaterialCord {
+  double radius = 0.32;    ///< [m]
+  double stiffness = 1e6;  ///< E A per width along the axle [N/m]
+  bool operator==(const MaterialCord&) const = default;
+};
+
 /// One of several loads: the keys of the section [load] that it changes.
 struct CaseLoad {
   std::string name = {};
@@ -442,6 +449,7 @@ struct Case {
   Wheel wheel;
   RingMaterial material;
   std::vector<MaterialLayer> layers;
+  std::vector<MaterialCord> cords;
   Load load;
   Contact contact;
   Holes holes;

@@ -207,6 +207,7 @@ const Section<Case>& general_section();
 const Section<Wheel>& wheel_section();
 const Section<RingMaterial>& material_section();
 const SectionArray<MaterialLayer>& material_layer_sections();
+const SectionArray<MaterialCord>& material_cord_sections();
 const Section<Load>& load_section();
 const SectionArray<CaseLoad>& load_case_sections();
 /// The same with the own keys of this load.
@@ -256,6 +257,7 @@ void for_each_section(Visitor&& visit) {
   visit(wheel_section());
   visit(material_section());
   visit(material_layer_sections());
+  visit(material_cord_sections());
   visit(load_section());
   visit(load_case_sections());
   visit(contact_section());

@@ -143,7 +143,9 @@ Materials<dim> materials(const Case& c) {
   std::vector<typename Materials<dim>::Layer> layers;
   for (const PlacedMaterial& placed : placed_materials(c))
     layers.push_back({placed.outer_radius, law_of<dim>(placed)});
-  return Materials<dim>(std::move(layers));
+  std::vector<typename Materials<dim>::Cord> cords;
+  for (const MaterialCord& cord : c.cords) cords.push_back({cord.radius, cord.stiffness});
+  return Materials<dim>(std::move(layers), std::move(cords));
 }
 
 bool layers_fit(const Case& c, int radial_cells) {

@@ -66,7 +66,7 @@ std::vector<PlacedMaterial> placed_materials(const Case& c);
 template <int dim>
 Materials<dim> materials(const Case& c);
 
-/// Whether with this many radial cells the layers end on lines of the grid.
+/// Whether with this many radial cells the layers end on lines of the grid, and cords lie on lines.
 bool layers_fit(const Case& c, int radial_cells);
 
 /// Whether the density of every material of the ring is known.

@@ -200,6 +200,46 @@ void check_lines(const Case& c, Conflicts& found) {
   }
 }
 
+/// Cords lie on lines of the grid, in material without holes, below the condensed rows at the tread.
+void check_cords(const Case& c, Conflicts& found) {
+  const double rim = c.wheel.inner_radius, tread = c.wheel.outer_radius,
+               row = (tread - rim) / c.grid.radial_cells, rounding = 1e-6 * row;
+  const Bands solid = bands(c);
+  std::vector<SolidAnnulus> annuli = solid.between;
+  annuli.push_back({rim, rim + solid.rim.thickness});
+  annuli.push_back({tread - solid.tread.thickness, tread});
+  for (std::size_t i = 0; i < c.cords.size(); ++i) {
+    const double radius = c.cords[i].radius;
+    const CaseKeys keys{key_of(&MaterialCord::radius, i), key_of(&Grid::radial_cells),
+                        key_of(&Wheel::inner_radius), key_of(&Wheel::outer_radius)};
+    const double line = (radius - rim) / row, nearest = rim + std::round(line) * row;
+    const double highest = tread - tread_rows(c) * row;
+    if (std::abs(line - std::round(line)) >= 1e-6) {
+      const std::string cells = fitting_cells(c);
+      found.push_back(
+          {keys,
+           fmt::format("{:.6g} m lies between two lines of the grid, whose {} rows are {:.4g} mm high",
+                       radius, c.grid.radial_cells, 1e3 * row),
+           fmt::format("use {}{:.6g} m, the nearest line",
+                       cells.empty() ? "" : fmt::format("grid.radial_cells = {}, or ", cells), nearest)});
+    } else if (radius < rim + row - rounding || radius > highest + rounding) {
+      found.push_back({keys,
+                       "cords lie between the rim and the rows of cells at the tread, which are condensed",
+                       fmt::format("use {:.6g} m to {:.6g} m", rim + row, highest)});
+    } else if (std::ranges::none_of(annuli, [&](const SolidAnnulus& annulus) {
+                 return radius - row > annulus.inner - rounding && radius < annulus.outer + rounding;
+               })) {
+      found.push_back(
+          {{key_of(&MaterialCord::radius, i), key_of(&Optimizer::rim_band), key_of(&Optimizer::tread_band),
+            table_of<MaterialCord>(i)},
+           fmt::format("holes may reach the cords: the row of cells below {:.6g} m is in no layer "
+                       "with holes = \"none\" and in no band at rim or tread",
+                       radius),
+           "put the cords into such a layer or band"});
+    }
+  }
+}
+
 /// The condensed rows at the tread, of which there are several with an annulus, must be of one material.
 void check_annulus(const Case& c, Conflicts& found) {
   const PlacedMaterial outermost = placed_materials(c).back();
@@ -229,6 +269,7 @@ void material_conflicts(const Case& c, Conflicts& found) {
       check_locking(c, placed, found);
   }
   check_lines(c, found);
+  check_cords(c, found);
   check_annulus(c, found);
 }
 

@@ -192,4 +192,24 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
   return sections;
 }
 
+const SectionArray<MaterialCord>& material_cord_sections() {
+  static const SectionArray<MaterialCord> sections{
+      .parent = "material",
+      .name = "cord",
+      .meaning =
+          "thin cords side by side along a circle, such as a belt: they resist strain along the azimuth "
+          "alone, and have no mass. The circle is a line of the grid, of which there are "
+          "grid.radial_cells + 1 at equal distances, and lies in material that has no holes: a layer "
+          "with holes = \"none\", or a band at rim or tread",
+      .in = [](Case& c) -> std::vector<MaterialCord>& { return c.cords; },
+      .example = {.radius = 0.335, .stiffness = 2e6},
+      .keys = {length_key<MaterialCord>(&MaterialCord::radius, "radius", "radius of the circle"),
+               {.name = "stiffness",
+                .unit = "N/m",
+                .field = NumberField<MaterialCord>{&MaterialCord::stiffness, above(0, 1e13)},
+                .meaning = "E A: force by strain of the cords, per width along the axle",
+                .presence = Presence::required}}};
+  return sections;
+}
+
 }  // namespace wheelwright
