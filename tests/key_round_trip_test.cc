@@ -87,10 +87,17 @@ Case a_wheel(int dimension) {
   Case c;
   c.wheel.dimension = dimension;
   c.wheel.sectors = 8;
-  c.material = {.youngs_modulus = 5e7, .poissons_ratio = 0.3, .density = 1000};
+  c.material = {{.youngs_modulus = 5e7, .poissons_ratio = 0.3, .density = 1000}, {}};
   c.contact.friction = 0.5;
   c.output.folder = "runs/here";
   return c;
+}
+
+template <class Struct>
+void make_orthotropic(Struct& s) {
+  s.youngs_modulus_radial = s.youngs_modulus_azimuthal = s.youngs_modulus_axial = 5e7;
+  s.poissons_ratio_radial_azimuthal = s.poissons_ratio_radial_axial = s.poissons_ratio_azimuthal_axial = 0.3;
+  s.shear_modulus_radial_azimuthal = s.shear_modulus_radial_axial = s.shear_modulus_azimuthal_axial = 2e7;
 }
 
 /// Cases each of which allows other keys to be changed.
@@ -98,7 +105,8 @@ std::vector<Case> starting_points() {
   std::vector<Case> cases;
   for (const int dimension : {2, 3}) {
     const Case plain = a_wheel(dimension);
-    Case frictionless = plain, loads = plain, bounded = plain, minimizing = plain;
+    Case frictionless = plain, loads = plain, bounded = plain, minimizing = plain, orthotropic = plain;
+    make_orthotropic(orthotropic.material);
     frictionless.contact.friction = 0;
     frictionless.contact.quadrature_points = 2;
     frictionless.grid.angular_cells = 96;
@@ -114,7 +122,7 @@ std::vector<Case> starting_points() {
     kerb.load.ground_profile = {{-0.1, 0}, {0, 0.001}, {0.1, 0}};
     Case equal = bounded;
     equal.constraints = {{.quantity = built_in("strain_energy"), .equals = 5}};
-    cases.insert(cases.end(), {plain, frictionless, loads, bounded, minimizing, equal, kerb});
+    cases.insert(cases.end(), {plain, frictionless, loads, bounded, minimizing, equal, kerb, orthotropic});
   }
   return cases;
 }
@@ -141,6 +149,13 @@ Case with_tables(Case c, const SectionArray<Struct>& section) {
     tables[1].name = "core";
     tables[0].inner_radius.reset();
     tables[0].outer_radius = 0.22;
+    make_orthotropic(tables[1]);
+  }
+  if constexpr (std::is_same_v<Struct, MaterialCord>) {  // another place for it is at 0.25 m
+    c.layers = {material_layer_sections().example};
+    c.layers[0].inner_radius = 0.235;
+    c.layers[0].outer_radius = 0.255;
+    c.layers[0].holes = LayerHoles::none;
   }
   if constexpr (requires { tables[0].order; })
     for (std::size_t i = 0; i < tables.size(); ++i) tables[i].order = static_cast<int>(i) + 1;

@@ -6,6 +6,7 @@
 
 #include "examples/own_material/warm_polymer.h"
 #include "tests/support.h"
+#include "wheelwright/mechanics/elasticity/orthotropic_law.h"
 #include "wheelwright/quantities/functionals/peak_von_mises.h"
 
 namespace wheelwright {
@@ -96,6 +97,22 @@ TEST(MaterialLaw, IsotropicLawsAreDerivativesOfTheirEnergy) {
   expect_derivatives<2>(IsotropicLaw<2>({modulus, ratio}));
   expect_derivatives<2>(IsotropicLaw<2>({modulus, ratio, Plane::stress}));
   expect_derivatives<3>(IsotropicLaw<3>({modulus, ratio}));
+}
+
+TEST(MaterialLaw, OrthotropicLawsAreDerivativesOfTheirEnergy) {
+  OrthotropicMaterial material{.modulus_r = 40e6,
+                               .modulus_t = 90e6,
+                               .modulus_z = 60e6,
+                               .ratio_rt = 0.1,
+                               .ratio_rz = 0.31,
+                               .ratio_tz = 0.42,
+                               .shear_rt = 45e6,
+                               .shear_rz = 33e6,
+                               .shear_tz = 70e6};
+  expect_derivatives<2>(OrthotropicLaw<2>(material));
+  expect_derivatives<3>(OrthotropicLaw<3>(material));
+  material.plane = Plane::stress;
+  expect_derivatives<2>(OrthotropicLaw<2>(material));
 }
 
 TEST(MaterialLaw, AnOwnLawIsTheDerivativeOfItsEnergy) {

@@ -361,6 +361,50 @@ class LayeredWheels {
   std::mt19937 random_;
 };
 
+/// The same wheels with orthotropic materials in most layers and in half of the rest: moduli of contrasts up
+/// to 1e4 in one material, and any Poisson's ratios with which it is stable, also negative ones and such that
+/// elements lock.
+class OrthotropicWheels {
+ public:
+  explicit OrthotropicWheels(unsigned seed) : wheels_(seed), random_(seed + 1) {}
+
+  Case draw() {
+    Case c = wheels_.draw();
+    const double rest = uniform(0, 1);
+    if (rest < 0.5) draw_constants(c.material.youngs_modulus, c.material);
+    for (MaterialLayer& layer : c.layers)
+      if (uniform(0, 1) < 0.7) draw_constants(layer.youngs_modulus, layer);
+    return c;
+  }
+
+ private:
+  double uniform(double a, double b) { return std::uniform_real_distribution(a, b)(random_); }
+
+  void draw_constants(double youngs_modulus, OrthotropicConstants& constants) {
+    const auto modulus = [&] { return std::clamp(youngs_modulus * std::pow(10, uniform(-2, 2)), 1.0, 1e13); };
+    const double e_r = modulus(), e_t = modulus(), e_z = modulus();
+    double a = 1, b = 1, c = 1;
+    while (!(1 - a * a - b * b - c * c - 2 * a * b * c > 0)) {
+      a = uniform(-0.5, 1);
+      b = uniform(-0.5, 1);
+      c = uniform(-0.5, 1);
+    }
+    constants.youngs_modulus_radial = e_r;
+    constants.youngs_modulus_azimuthal = e_t;
+    constants.youngs_modulus_axial = e_z;
+    constants.poissons_ratio_radial_azimuthal = a * std::sqrt(e_r / e_t);
+    constants.poissons_ratio_radial_axial = b * std::sqrt(e_r / e_z);
+    constants.poissons_ratio_azimuthal_axial = c * std::sqrt(e_t / e_z);
+    for (const auto member : {&OrthotropicConstants::shear_modulus_radial_azimuthal,
+                              &OrthotropicConstants::shear_modulus_radial_axial,
+                              &OrthotropicConstants::shear_modulus_azimuthal_axial})
+      constants.*member = std::min(1e13, 0.4 * std::sqrt(e_r * e_t) * std::pow(10, uniform(-1, 0.5)));
+  }
+
+  LayeredWheels wheels_;
+  std::mt19937 random_;
+};
+
 /// The same wheels on drums, in drums, on bars, kerbs and profiles from far too small to far too large, some
 /// load cases on grounds of their own.
 class WheelsOnGrounds {

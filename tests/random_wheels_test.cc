@@ -23,6 +23,7 @@ namespace {
 
 using testing::AnyWheels;
 using testing::LayeredWheels;
+using testing::OrthotropicWheels;
 using testing::RandomWheels;
 
 /// Changes a case as the remedy of a problem says: "take KEY = VALUE", "take at most LOAD N" or "remove one
@@ -247,6 +248,9 @@ TEST(WheelsOnGrounds, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<Whee
 
 TEST(LayeredWheels, EndSolvedOrWithAReason) { expect_a_reason_of_each<LayeredWheels>(0, 8, 3); }
 TEST(LayeredWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<LayeredWheels>(0, 300, 7); }
+
+TEST(OrthotropicWheels, EndSolvedOrWithAReason) { expect_a_reason_of_each<OrthotropicWheels>(0, 8, 3); }
+TEST(OrthotropicWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each<OrthotropicWheels>(0, 300, 7); }
 
 }  // namespace
 }  // namespace wheelwright

@@ -7,6 +7,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/linalg/lu_factor.h"
+#include "wheelwright/mechanics/elasticity/orthotropic_law.h"
 
 namespace wheelwright {
 namespace {
@@ -370,6 +371,170 @@ TEST(Ring, LayeredRing_UnderPressure_MatchesLame) {
       const double exact = displacement_of_two_layers(0.2, interface, 0.34, in, out, true);
       EXPECT_NEAR(ring.outer_displacement() / exact, 1, 1e-5);
       EXPECT_NEAR(ring.strain_energy() / (-std::numbers::pi * 0.34 * pressure * exact), 1, 1e-5);
+    }
+}
+
+/// Normal stiffnesses of a material with polar axes to strains in the plane, by the inverse of its
+/// compliance.
+struct PolarStiffness {
+  double rr, tt, rt;
+};
+
+PolarStiffness polar_stiffness(const OrthotropicMaterial& m) {
+  const int n = m.plane == Plane::strain ? 3 : 2;
+  Matrix s(n, n), c(n, n);
+  const double moduli[] = {m.modulus_r, m.modulus_t, m.modulus_z};
+  for (int i = 0; i < n; ++i) {
+    s(i, i) = 1 / moduli[i];
+    c(i, i) = 1;
+  }
+  s(0, 1) = s(1, 0) = -m.ratio_rt / m.modulus_r;
+  if (n == 3) {
+    s(0, 2) = s(2, 0) = -m.ratio_rz / m.modulus_r;
+    s(1, 2) = s(2, 1) = -m.ratio_tz / m.modulus_t;
+  }
+  c = LuFactor::factor(std::move(s))->solve(std::move(c));
+  return {c(0, 0), c(1, 1), c(0, 1)};
+}
+
+/// The displacement at the tread of a ring of layers with polar axes under the pressure there. In every layer
+/// c_rr (u'' + u' / r) = c_tt u / r^2: u = A r^k + B r^-k with k = sqrt(c_tt / c_rr), sigma_r = (c_rt + k
+/// c_rr) A r^(k-1) + (c_rt - k c_rr) B r^(-k-1). Bonded or free at the inner radius. On
+/// the outer radius of every layer but the last lie cords of this stiffness [N/m]: sigma_r rises there by
+/// stiffness u / r^2.
+double displacement_of_polar_layers(double inner,
+                                    const std::vector<std::pair<double, PolarStiffness>>& layers,
+                                    bool is_bonded, double cords = 0) {
+  const int n = 2 * static_cast<int>(layers.size());
+  Matrix a(n, n), b(n, 1);
+  const double unit = layers[0].second.rr, tread = layers.back().first;  // r in units of the tread's
+  const auto displacements = [&](const PolarStiffness& c, double r) {
+    const double k = std::sqrt(c.tt / c.rr), x = r / tread;
+    return std::array{std::pow(x, k), std::pow(x, -k)};
+  };
+  const auto stresses = [&](const PolarStiffness& c, double r) {
+    const double k = std::sqrt(c.tt / c.rr), x = r / tread;
+    return std::array{(c.rt + k * c.rr) * std::pow(x, k - 1) / unit,
+                      (c.rt - k * c.rr) * std::pow(x, -k - 1) / unit};
+  };
+  const auto put = [&](int row, int layer, const std::array<double, 2>& values, double sign) {
+    for (int i = 0; i < 2; ++i) a(row, 2 * layer + i) = sign * values[i];
+  };
+  put(0, 0, is_bonded ? displacements(layers[0].second, inner) : stresses(layers[0].second, inner), 1);
+  int row = 1;
+  for (int layer = 0; layer + 1 < static_cast<int>(layers.size()); ++layer) {
+    const double r = layers[layer].first;
+    for (const int side : {0, 1}) {
+      put(row, layer + side, displacements(layers[layer + side].second, r), side == 0 ? 1 : -1);
+      put(row + 1, layer + side, stresses(layers[layer + side].second, r), side == 0 ? 1 : -1);
+    }
+    const auto below = displacements(layers[layer].second, r);
+    for (int i = 0; i < 2; ++i) a(row + 1, 2 * layer + i) += cords * tread / (r * r) / unit * below[i];
+    row += 2;
+  }
+  put(row, static_cast<int>(layers.size()) - 1, stresses(layers.back().second, tread), 1);
+  b(row, 0) = -pressure * tread / unit;
+  const Matrix x = LuFactor::factor(std::move(a))->solve(std::move(b));
+  return x(n - 2, 0) + x(n - 1, 0);
+}
+
+/// Stiff along the azimuth, or along the radius.
+std::vector<OrthotropicMaterial> polar_materials(Plane plane) {
+  return {{.modulus_r = 80e6,
+           .modulus_t = 900e6,
+           .modulus_z = 200e6,
+           .ratio_rt = 0.05,
+           .ratio_rz = 0.31,
+           .ratio_tz = 0.42,
+           .shear_rt = 45e6,
+           .plane = plane},
+          {.modulus_r = 400e6,
+           .modulus_t = 100e6,
+           .modulus_z = 50e6,
+           .ratio_rt = 0.6,
+           .ratio_rz = 0.4,
+           .ratio_tz = 0.3,
+           .shear_rt = 90e6,
+           .plane = plane}};
+}
+
+TEST(Ring, OrthotropicRing_UnderPressure_MatchesThePowersOfTheRadius) {
+  for (const Plane plane : {Plane::strain, Plane::stress})
+    for (const OrthotropicMaterial& material : polar_materials(plane)) {
+      SCOPED_TRACE(::testing::Message() << material.modulus_r << ", " << static_cast<int>(plane));
+      const std::vector<std::pair<double, PolarStiffness>> all{{0.34, polar_stiffness(material)}};
+      auto model = pressed_model(16);
+      model.materials = Materials<2>(std::make_shared<OrthotropicLaw<2>>(material));
+      const PressedRing bonded(model, solid(model.grid));
+      const double exact = displacement_of_polar_layers(0.2, all, true);
+      EXPECT_NEAR(bonded.outer_displacement() / exact, 1, 1e-5);
+      EXPECT_NEAR(bonded.strain_energy() / (-std::numbers::pi * 0.34 * pressure * exact), 1, 1e-5);
+      for (const double fraction : {0.1, 0.63, 1 - 1e-6}) {
+        const PressedRing free = free_ring(16, fraction, model.materials);
+        const double moved = displacement_of_polar_layers(0.2, all, false);
+        EXPECT_NEAR(free.outer_displacement() / moved, 1, 2e-5) << fraction;
+        EXPECT_NEAR(free.strain_energy() / (-std::numbers::pi * 0.34 * pressure * moved), 1, 2e-5)
+            << fraction;
+      }
+    }
+}
+
+TEST(Ring, OrthotropicLayers_UnderPressure_MatchThePowersOfTheRadius) {
+  const auto materials = polar_materials(Plane::strain);
+  for (const int line : {8, 15}) {
+    auto model = pressed_model(16);
+    const double interface = 0.2 + line * 0.14 / 16;
+    model.materials = Materials<2>(
+        std::vector<Materials<2>::Layer>{{interface, std::make_shared<OrthotropicLaw<2>>(materials[0])},
+                                         {0, std::make_shared<OrthotropicLaw<2>>(materials[1])}});
+    const PressedRing ring(model, solid(model.grid));
+    const double exact = displacement_of_polar_layers(
+        0.2, {{interface, polar_stiffness(materials[0])}, {0.34, polar_stiffness(materials[1])}}, true);
+    EXPECT_NEAR(ring.outer_displacement() / exact, 1, 1e-5);
+    EXPECT_NEAR(ring.strain_energy() / (-std::numbers::pi * 0.34 * pressure * exact), 1, 1e-5);
+  }
+}
+
+/// A cord of any stiffness in the ring; a very stiff one is as good as a rim.
+TEST(Ring, RingWithACord_UnderPressure_HasTheJumpOfItsForce) {
+  const Material rubber{20e6, 0.4};
+  const double young = rubber.youngs_modulus, nu = rubber.poissons_ratio, shear = rubber.mu();
+  const PolarStiffness c = polar_stiffness({young, young, young, nu, nu, nu, shear});
+  const auto law = std::make_shared<IsotropicLaw<2>>(rubber);
+  for (const int line : {1, 8, 15}) {
+    const double radius = 0.2 + line * 0.14 / 16;
+    double remaining[2] = {};
+    for (const double stiffness : {1e5, 1e7, 1e10, 1e12}) {
+      SCOPED_TRACE(::testing::Message() << line << ", " << stiffness);
+      auto model = pressed_model(16);
+      model.materials = Materials<2>(std::vector<Materials<2>::Layer>{{0, law}}, {{radius, stiffness}});
+      const PressedRing ring(model, solid(model.grid));
+      const double exact = displacement_of_polar_layers(0.2, {{radius, c}, {0.34, c}}, true, stiffness);
+      EXPECT_NEAR(ring.outer_displacement() / exact, 1, 1e-5);
+      EXPECT_NEAR(ring.strain_energy() / (-std::numbers::pi * 0.34 * pressure * exact), 1, 1e-5);
+      const double rigid = displacement_of_polar_layers(radius, {{0.34, c}}, true);
+      if (stiffness >= 1e10) remaining[stiffness > 1e11] = std::abs(exact / rigid - 1);
+    }
+    EXPECT_LT(remaining[0], 0.1);
+    EXPECT_NEAR(remaining[0] / remaining[1], 100, 5);
+  }
+}
+
+/// A free inner edge that cuts cells beside the cord, where the ghost penalty ends: the traction jumps there.
+TEST(Ring, RingWithACord_AndACutInnerEdge_HasTheJumpOfItsForce) {
+  const Material rubber{20e6, 0.4};
+  const double young = rubber.youngs_modulus, nu = rubber.poissons_ratio;
+  const PolarStiffness c = polar_stiffness({young, young, young, nu, nu, nu, rubber.mu()});
+  for (const double fraction : {0.1, 0.63, 0.9, 1 - 1e-6})
+    for (const double stiffness : {1e6, 1e9}) {
+      SCOPED_TRACE(::testing::Message() << fraction << ", " << stiffness);
+      const double radius = 0.34 - 15 * 0.14 / (16 - fraction);
+      const PressedRing ring = free_ring(
+          16, fraction,
+          Materials<2>(std::vector<Materials<2>::Layer>{{0, std::make_shared<IsotropicLaw<2>>(rubber)}},
+                       {{radius, stiffness}}));
+      const double exact = displacement_of_polar_layers(0.2, {{radius, c}, {0.34, c}}, false, stiffness);
+      EXPECT_NEAR(ring.outer_displacement() / exact, 1, 2e-5);
     }
 }
 

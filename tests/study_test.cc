@@ -17,7 +17,7 @@ constexpr double tiny = 1e-14;
 Case uneven_case() {
   Case c;
   c.wheel = {.inner_radius = 0.21, .outer_radius = 0.37, .width = 0.125, .sectors = 12};
-  c.material = {3e6, 0.31, Plane::stress};
+  c.material = {{3e6, 0.31, Plane::stress}, {}};
   c.load = {.force = 1000,
             .travel = {},
             .horizontal_force = 70,

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/support.h"
+#include "wheelwright/mechanics/elasticity/orthotropic_law.h"
 #include "wheelwright/mechanics/elasticity/small_hole.h"
 #include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/material_volume.h"
@@ -225,6 +226,31 @@ TEST(TopologicalDerivative, IsTheLimitOfFiniteHoles) {
     EXPECT_LT(std::abs(found[k + 1][0] - expected[0][0]), 0.5 * std::abs(found[k][0] - expected[0][0]));
     EXPECT_GT(order(expected[1][0], radii, of_function(found, 1), k), 1.8);
   }
+}
+
+/// The same in a material with polar axes.
+TEST(TopologicalDerivative, IsTheLimitOfFiniteHolesInAnOrthotropicMaterial) {
+  auto model = lopsided_model(28, 384);
+  model.materials = Materials<2>(std::make_shared<OrthotropicLaw<2>>(OrthotropicMaterial{.modulus_r = 100e6,
+                                                                                         .modulus_t = 500e6,
+                                                                                         .modulus_z = 200e6,
+                                                                                         .ratio_rt = 0.1,
+                                                                                         .ratio_rz = 0.3,
+                                                                                         .ratio_tz = 0.4,
+                                                                                         .shear_rt = 60e6}));
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const std::vector<ShapeFunction<2>> functions{{"energy", testing::strain_energy_alone()}};
+  const Place place{0.2731, 0.68};
+  const std::vector<double> radii{0.02, 0.014, 0.01};
+  const auto found = by_finite_holes(*problem, functions, place, radii);
+  const auto expected = derivatives_at(*problem, functions, {place});
+  // What is of second order in the radius falls out of the last two.
+  const double r1 = radii[1] * radii[1], r2 = radii[2] * radii[2];
+  const double limit = (found[2][0] * r1 - found[1][0] * r2) / (r1 - r2);
+  EXPECT_NEAR(limit, expected[0][0], 0.02 * expected[0][0]);
+  for (const size_t k : {0, 1})
+    EXPECT_LT(std::abs(found[k + 1][0] - expected[0][0]), 0.6 * std::abs(found[k][0] - expected[0][0]));
 }
 
 TEST(TopologicalDerivative, SlowIsTheLimitOfFiniteHolesAtSeveralPlaces) {

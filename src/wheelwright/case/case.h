@@ -37,11 +37,28 @@ struct Wheel {
   bool operator==(const Wheel&) const = default;
 };
 
+/// The constants of a material whose axes are the radius, the azimuth and the axle, in place of those of an
+/// isotropic one: OrthotropicMaterial. All are absent if the material is isotropic.
+struct OrthotropicConstants {
+  std::optional<double> youngs_modulus_radial, youngs_modulus_azimuthal, youngs_modulus_axial;  ///< [Pa]
+  /// The first axis is that of the stress, the second that of the contraction.
+  std::optional<double> poissons_ratio_radial_azimuthal, poissons_ratio_radial_axial,
+      poissons_ratio_azimuthal_axial;
+  std::optional<double> shear_modulus_radial_azimuthal;                             ///< [Pa]
+  std::optional<double> shear_modulus_radial_axial, shear_modulus_azimuthal_axial;  ///< in 3D [Pa]
+  bool operator==(const OrthotropicConstants&) const = default;
+};
+
+/// What lies in no layer of the ring.
+struct RingMaterial : Material, OrthotropicConstants {
+  bool operator==(const RingMaterial&) const = default;
+};
+
 /// Whether holes may lie in a layer of the ring.
 enum class LayerHoles { allowed, none };
 
 /// Everything between two radii, of another material than the rest of the ring.
-struct MaterialLayer {
+struct MaterialLayer : OrthotropicConstants {
   std::string name = {};
   std::optional<double> inner_radius = {};  ///< absent: the rim
   std::optional<double> outer_radius = {};  ///< absent: the tread
@@ -50,6 +67,13 @@ struct MaterialLayer {
   std::optional<double> density = {};  ///< [kg/m^3]
   LayerHoles holes = LayerHoles::allowed;
   bool operator==(const MaterialLayer&) const = default;
+};
+
+/// Thin cords side by side along a circle of the ring.
+struct MaterialCord {
+  double radius = 0.32;    ///< [m]
+  double stiffness = 1e6;  ///< E A per width along the axle [N/m]
+  bool operator==(const MaterialCord&) const = default;
 };
 
 /// One of several loads: the keys of the section [load] that it changes.
@@ -431,8 +455,9 @@ struct Vocabulary {
 struct Case {
   std::string title;
   Wheel wheel;
-  Material material;  ///< of what lies in no layer
+  RingMaterial material;
   std::vector<MaterialLayer> layers;
+  std::vector<MaterialCord> cords;
   Load load;
   Contact contact;
   Holes holes;

@@ -40,9 +40,9 @@ std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, con
   return names;
 }
 
-/// The same of a member of the table's type.
-template <class Struct, class Value>
-std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, Value Struct::*member) {
+/// The same of a member of the table's type or of its base.
+template <class Struct, class Base, class Value>
+std::vector<std::string_view> names_of(const std::vector<Key<Struct>>& keys, Value Base::*member) {
   const Struct sample{};
   return names_of(keys, sample, &(sample.*member));
 }

@@ -16,16 +16,21 @@ namespace {
 
 void check_nitsche(const Case& c, Conflicts& found) {
   if (c.contact.method != ContactMethod::nitsche || c.wheel.inner_radius >= c.wheel.outer_radius) return;
-  const Material material = tread_material(c);
-  const double least = minimum_gamma_0(c.contact.theta, material, tread_cell_aspect(c));
+  const PlacedMaterial tread = tread_material(c);
+  const double least = std::visit(
+      [&](const auto& material) { return minimum_gamma_0(c.contact.theta, material, tread_cell_aspect(c)); },
+      tread.material);
   if (c.contact.gamma_0 >= least) return;
   found.push_back(
       {{key_of(&Contact::gamma_0), key_of(&Contact::theta), key_of(&Contact::method),
-        key_of(&Material::poissons_ratio), key_of(&Material::plane), key_of(&Grid::angular_cells),
+        tread.poissons_ratio_key(), key_of(&Material::plane), key_of(&Grid::angular_cells),
         key_of(&Grid::radial_cells)},
-       fmt::format("too small for theta = {}, poissons_ratio = {} and cells that are {:.2g} times as long as "
+       fmt::format("too small for theta = {}, {} and cells that are {:.2g} times as long as "
                    "high: the stiffness may not be positive definite",
-                   c.contact.theta, material.poissons_ratio, tread_cell_aspect(c)),
+                   c.contact.theta,
+                   tread.isotropic() ? fmt::format("poissons_ratio = {}", tread.isotropic()->poissons_ratio)
+                                     : "the orthotropic material at the tread",
+                   tread_cell_aspect(c)),
        fmt::format("use gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 

@@ -192,6 +192,8 @@ bool optimizes_any(const Case& c, bool QuantityRow::*property) {
 
 bool holds_volume(const Case& c) { return !optimizes_any(c, &QuantityRow::is_amount_of_material); }
 
+bool optimizes_stresses(const Case& c) { return optimizes_any(c, &QuantityRow::integrates_stresses); }
+
 bool wants_annulus(const Case& c) {
   return c.objective.annulus_matches_dual.has_value() || optimizes_any(c, &QuantityRow::observes_annulus);
 }
@@ -324,15 +326,27 @@ long long dof_bound(const Case& c) {
   return c.wheel.dimension * radial * angular * axial_nodes(c);
 }
 
-double minimum_gamma_0(double theta, const Material& material, double aspect) {
+namespace {
+
+/// `stiffness`: of the normal strain at the tread, in units of the modulus that scales gamma.
+double gamma_0_for(double theta, double stiffness, double aspect) {
   constexpr double reference = 8.8;  // (lambda + 2 mu) / E at nu = 0.48, where 10 and 100 were found
-  const double stiffness = (material.lambda() + 2 * material.mu()) / material.scaling_modulus() / reference;
-  // Without the indefinite term, a projected pressure needs no more as nu tends to 1/2.
-  if (theta <= 0 && material.nearly_incompressible()) return 13.2 * (1 + theta) * (1 + theta);
   constexpr double per_aspect =
       0.8;  // 0.80, 0.69, 0.55 and 0.58 were found at the aspects 2.3, 4.6, 9.2 and 19
-  return stiffness *
+  return stiffness / reference *
          (10 * (1 + theta) * (1 + theta) + 60 * std::max(theta, 0.0) * std::max(1.0, per_aspect * aspect));
+}
+
+}  // namespace
+
+double minimum_gamma_0(double theta, const Material& material, double aspect) {
+  // Without the indefinite term, a projected pressure needs no more as nu tends to 1/2.
+  if (theta <= 0 && material.nearly_incompressible()) return 13.2 * (1 + theta) * (1 + theta);
+  return gamma_0_for(theta, (material.lambda() + 2 * material.mu()) / material.scaling_modulus(), aspect);
+}
+
+double minimum_gamma_0(double theta, const OrthotropicMaterial& material, double aspect) {
+  return gamma_0_for(theta, material.radial_stiffness() / material.scaling_modulus(), aspect);
 }
 
 double tread_cell_aspect(const Case& c) {

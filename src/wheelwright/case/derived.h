@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "wheelwright/case/case.h"
+#include "wheelwright/mechanics/elasticity/orthotropic_material.h"
 #include "wheelwright/shape/geometry/bands.h"
 #include "wheelwright/shape/geometry/shapes.h"
 
@@ -103,6 +104,9 @@ bool minimizes_weighted_sum(const Case& c);
 /// Whether the volume is fixed: not if it is bounded or minimized.
 bool holds_volume(const Case& c);
 
+/// Whether integrals of stresses over the material are minimized or bounded.
+bool optimizes_stresses(const Case& c);
+
 /// Whether any functional compares the contact stress of the load positions.
 bool wants_uniformity(const Case& c);
 
@@ -152,6 +156,8 @@ long long dof_bound(const Case& c);
 /// cells at the tread, length along it by height: gamma refers to their diameter, but what bounds the
 /// tractions is the height.
 double minimum_gamma_0(double theta, const Material& material, double aspect = 1);
+/// The same by the stiffness along the radius.
+double minimum_gamma_0(double theta, const OrthotropicMaterial& material, double aspect = 1);
 
 /// The aspect of a case's cells at the tread.
 double tread_cell_aspect(const Case& c);

@@ -52,16 +52,15 @@ void check_solid_wheel(const SingleLoad& single, Conflicts& found) {
                      "a leaning wheel supports only forces on its rim",
                      "omit torque, body_force, hole_pressure and speed, or use camber = 0"});
   constexpr double largest = 0.4;
-  for (const auto& [inner, outer, material, layer] : placed_materials(c))
-    if (c.grid.degree == 1 && material.poissons_ratio > largest && !material.nearly_incompressible())
-      found.push_back(
-          {{key_of(&Grid::degree),
-            layer ? key_of(&MaterialLayer::poissons_ratio, *layer) : key_of(&Material::poissons_ratio),
-            key_of(&Wheel::dimension)},
-           fmt::format("elements of degree 1 lock: with poissons_ratio = {} the wheel would be "
-                       "tens of percent too stiff, with a different optimum",
-                       material.poissons_ratio),
-           fmt::format("use degree = 2, or poissons_ratio <= {}", largest)});
+  for (const PlacedMaterial& placed : placed_materials(c))
+    if (const Material* material = placed.isotropic(); c.grid.degree == 1 && material &&
+                                                       material->poissons_ratio > largest &&
+                                                       !material->nearly_incompressible())
+      found.push_back({{key_of(&Grid::degree), placed.poissons_ratio_key(), key_of(&Wheel::dimension)},
+                       fmt::format("elements of degree 1 lock: with poissons_ratio = {} the wheel would be "
+                                   "tens of percent too stiff, with a different optimum",
+                                   material->poissons_ratio),
+                       fmt::format("use degree = 2, or poissons_ratio <= {}", largest)});
 }
 
 }  // namespace

@@ -189,8 +189,8 @@ struct Key {
                ChoiceField<Struct>, QuantityField<Struct>>
       field;
   std::string_view meaning;
-  Presence presence = Presence::has_default;
-  std::string_view instead_of = {};  ///< the key of the same section that this one can replace
+  Presence presence = Presence::has_default;  ///< required: unless a key instead of it is given
+  std::string_view instead_of = {};           ///< the key of the same section that this one can replace
 };
 
 /// A table of the file, [name]; the empty name is the file's top level.
@@ -223,8 +223,9 @@ struct SectionArray {
 
 const Section<Case>& general_section();
 const Section<Wheel>& wheel_section();
-const Section<Material>& material_section();
+const Section<RingMaterial>& material_section();
 const SectionArray<MaterialLayer>& material_layer_sections();
+const SectionArray<MaterialCord>& material_cord_sections();
 const Section<Load>& load_section();
 const SectionArray<CaseLoad>& load_case_sections();
 /// The same with the own keys of this load.
@@ -262,7 +263,7 @@ constexpr std::tuple shape_sections{&circle_shape_sections,  &ellipse_shape_sect
 /// Every Section and SectionArray, in the order of the file.
 constexpr std::tuple all_sections = std::tuple_cat(
     std::tuple{&general_section, &wheel_section, &material_section, &material_layer_sections,
-               static_cast<const Section<Load>& (*)()>(&load_section),
+               &material_cord_sections, static_cast<const Section<Load>& (*)()>(&load_section),
                static_cast<const SectionArray<CaseLoad>& (*)()>(&load_case_sections), &contact_section,
                &ring_sections, &circle_sections, &sphere_sections, &tapered_sections, &saved_shape_section},
     shape_sections,
@@ -282,20 +283,22 @@ void for_each_section(Visitor&& visit) {
   std::apply([&](const auto... section) { (visit(section()), ...); }, all_sections);
 }
 
-template <class Getter, class... Getters>
-constexpr bool is_one_of(const std::tuple<Getters...>&) {
-  return (std::same_as<Getter, Getters> || ...);
-}
+/// Whether the tables of what the function returns have the members of Struct.
+template <class Struct, class Function>
+constexpr bool is_section_of = false;
+template <class Struct, class Table>
+constexpr bool is_section_of<Struct, const Section<Table>& (*)()> = std::derived_from<Table, Struct>;
+template <class Struct, class Table>
+constexpr bool is_section_of<Struct, const SectionArray<Table>& (*)()> = std::derived_from<Table, Struct>;
 
-/// The Section or SectionArray of the case file that sets the members of Struct.
-template <class Struct>
+/// The first Section or SectionArray, from i on, whose tables are of Struct or of a type derived from it.
+template <class Struct, std::size_t i = 0>
 const auto& section_of() {
-  using OfTable = const Section<Struct>& (*)();
-  using OfArray = const SectionArray<Struct>& (*)();
-  if constexpr (is_one_of<OfTable>(all_sections))
-    return std::get<OfTable>(all_sections)();
+  using Function = std::tuple_element_t<i, std::remove_const_t<decltype(all_sections)>>;
+  if constexpr (is_section_of<Struct, Function>)
+    return std::get<i>(all_sections)();
   else
-    return std::get<OfArray>(all_sections)();
+    return section_of<Struct, i + 1>();
 }
 
 /// The same with the sections as this case has them: those of loads with the keys that a program has added.

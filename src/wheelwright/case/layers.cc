@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/mechanics/elasticity/orthotropic_law.h"
+
 namespace wheelwright {
 namespace {
 
@@ -14,11 +16,98 @@ std::vector<std::size_t> outward(const Case& c) {
   return order;
 }
 
-Material material_of(const Case& c, const MaterialLayer& layer) {
-  return {layer.youngs_modulus, layer.poissons_ratio, c.material.plane, layer.density};
+Material isotropic_material(const Case& c, const std::optional<std::size_t>& layer) {
+  if (!layer) return c.material;
+  const MaterialLayer& from = c.layers[*layer];
+  return {from.youngs_modulus, from.poissons_ratio, c.material.plane, from.density};
+}
+
+std::variant<Material, OrthotropicMaterial> material_of(const Case& c,
+                                                        const std::optional<std::size_t>& layer) {
+  auto orthotropic = orthotropic_material(c, layer);
+  if (!orthotropic) return isotropic_material(c, layer);
+  if (!orthotropic->is_stable()) orthotropic->ratio_rt = orthotropic->ratio_rz = orthotropic->ratio_tz = 0;
+  return *orthotropic;
+}
+
+template <int dim>
+std::shared_ptr<const MaterialLaw<dim>> law_of(const PlacedMaterial& placed) {
+  if (const OrthotropicMaterial* material = placed.orthotropic())
+    return std::make_shared<OrthotropicLaw<dim>>(*material);
+  return std::make_shared<IsotropicLaw<dim>>(*placed.isotropic());
 }
 
 }  // namespace
+
+std::optional<OrthotropicMaterial> orthotropic_material(const Case& c,
+                                                        const std::optional<std::size_t>& layer) {
+  const OrthotropicConstants& given = orthotropic_constants(c, layer);
+  if (given == OrthotropicConstants()) return {};
+  const Material isotropic = isotropic_material(c, layer);
+  const double e = isotropic.youngs_modulus, nu = isotropic.poissons_ratio, g = e / (2 * (1 + nu));
+  return OrthotropicMaterial{.modulus_r = given.youngs_modulus_radial.value_or(e),
+                             .modulus_t = given.youngs_modulus_azimuthal.value_or(e),
+                             .modulus_z = given.youngs_modulus_axial.value_or(e),
+                             .ratio_rt = given.poissons_ratio_radial_azimuthal.value_or(nu),
+                             .ratio_rz = given.poissons_ratio_radial_axial.value_or(nu),
+                             .ratio_tz = given.poissons_ratio_azimuthal_axial.value_or(nu),
+                             .shear_rt = given.shear_modulus_radial_azimuthal.value_or(g),
+                             .shear_rz = given.shear_modulus_radial_axial.value_or(g),
+                             .shear_tz = given.shear_modulus_azimuthal_axial.value_or(g),
+                             .plane = isotropic.plane,
+                             .density = isotropic.density};
+}
+
+double PlacedMaterial::youngs_modulus() const {
+  return isotropic() ? isotropic()->youngs_modulus : orthotropic()->modulus_r;
+}
+
+double PlacedMaterial::contact_modulus() const {
+  return std::visit([](const auto& m) { return m.contact_modulus(); }, material);
+}
+
+std::optional<double> PlacedMaterial::density() const {
+  return std::visit([](const auto& m) { return m.density; }, material);
+}
+
+double PlacedMaterial::least_compliance() const {
+  return isotropic() ? 1 - 2 * isotropic()->plane_strain_equivalent().poissons_ratio
+                     : orthotropic()->least_compliance();
+}
+
+CaseKey PlacedMaterial::youngs_modulus_key() const {
+  if (orthotropic()) return key_of_constant(layer, &OrthotropicConstants::youngs_modulus_radial);
+  return layer ? key_of(&MaterialLayer::youngs_modulus, *layer) : key_of(&Material::youngs_modulus);
+}
+
+CaseKey PlacedMaterial::poissons_ratio_key() const {
+  if (orthotropic()) return key_of_constant(layer, &OrthotropicConstants::poissons_ratio_radial_azimuthal);
+  return layer ? key_of(&MaterialLayer::poissons_ratio, *layer) : key_of(&Material::poissons_ratio);
+}
+
+std::vector<OrthotropicConstant> needed_constants(const Case& c) {
+  using Constants = OrthotropicConstants;
+  std::vector<OrthotropicConstant> needed{
+      &Constants::youngs_modulus_radial,         &Constants::youngs_modulus_azimuthal,
+      &Constants::youngs_modulus_axial,          &Constants::poissons_ratio_radial_azimuthal,
+      &Constants::poissons_ratio_radial_axial,   &Constants::poissons_ratio_azimuthal_axial,
+      &Constants::shear_modulus_radial_azimuthal};
+  if (c.wheel.dimension == 3) {
+    needed.push_back(&Constants::shear_modulus_radial_axial);
+    needed.push_back(&Constants::shear_modulus_azimuthal_axial);
+  }
+  return needed;
+}
+
+const OrthotropicConstants& orthotropic_constants(const Case& c, const std::optional<std::size_t>& layer) {
+  if (layer) return c.layers[*layer];
+  return c.material;
+}
+
+CaseKey key_of_constant(const std::optional<std::size_t>& layer, OrthotropicConstant constant) {
+  if (!layer) return key_of(static_cast<std::optional<double> RingMaterial::*>(constant));
+  return key_of(static_cast<std::optional<double> MaterialLayer::*>(constant), *layer);
+}
 
 LayerRadii radii(const Case& c, const MaterialLayer& layer) {
   return {layer.inner_radius.value_or(c.wheel.inner_radius),
@@ -31,17 +120,18 @@ std::string name_of_layer(const Case& c, std::size_t layer) {
 }
 
 std::vector<PlacedMaterial> placed_materials(const Case& c) {
-  if (c.layers.empty()) return {{c.wheel.inner_radius, c.wheel.outer_radius, c.material, std::nullopt}};
+  if (c.layers.empty())
+    return {{c.wheel.inner_radius, c.wheel.outer_radius, material_of(c, {}), std::nullopt}};
   std::vector<PlacedMaterial> result;
   double radius = c.wheel.inner_radius;
   const double least = 1e-9 * c.wheel.outer_radius;
   const auto fill = [&](double to) {
-    if (to > radius + least) result.push_back({radius, to, c.material, std::nullopt});
+    if (to > radius + least) result.push_back({radius, to, material_of(c, {}), std::nullopt});
   };
   for (const std::size_t i : outward(c)) {
     const auto [inner, outer] = radii(c, c.layers[i]);
     fill(inner);
-    result.push_back({inner, outer, material_of(c, c.layers[i]), i});
+    result.push_back({inner, outer, material_of(c, i), i});
     radius = outer;
   }
   fill(c.wheel.outer_radius);
@@ -50,11 +140,12 @@ std::vector<PlacedMaterial> placed_materials(const Case& c) {
 
 template <int dim>
 Materials<dim> materials(const Case& c) {
-  if (c.layers.empty()) return c.material;
   std::vector<typename Materials<dim>::Layer> layers;
   for (const PlacedMaterial& placed : placed_materials(c))
-    layers.push_back({placed.outer_radius, std::make_shared<IsotropicLaw<dim>>(placed.material)});
-  return Materials<dim>(std::move(layers));
+    layers.push_back({placed.outer_radius, law_of<dim>(placed)});
+  std::vector<typename Materials<dim>::Cord> cords;
+  for (const MaterialCord& cord : c.cords) cords.push_back({cord.radius, cord.stiffness});
+  return Materials<dim>(std::move(layers), std::move(cords));
 }
 
 bool layers_fit(const Case& c, int radial_cells) {
@@ -63,11 +154,11 @@ bool layers_fit(const Case& c, int radial_cells) {
 }
 
 bool all_have_density(const Case& c) {
-  return std::ranges::all_of(
-      placed_materials(c), [](const PlacedMaterial& placed) { return placed.material.density.has_value(); });
+  return std::ranges::all_of(placed_materials(c),
+                             [](const PlacedMaterial& placed) { return placed.density().has_value(); });
 }
 
-Material tread_material(const Case& c) { return placed_materials(c).back().material; }
+PlacedMaterial tread_material(const Case& c) { return placed_materials(c).back(); }
 
 double modulus_at(const Case& c, double radius) {
   return materials<2>(c).at_radius(radius).contact_modulus();
@@ -78,7 +169,7 @@ double contact_modulus(const Case& c, double half_width) {
   for (const PlacedMaterial& placed : placed_materials(c)) {
     const auto share = [&](double radius) { return std::exp((radius - c.wheel.outer_radius) / half_width); };
     const double below = placed.inner_radius > c.wheel.inner_radius ? share(placed.inner_radius) : 0;
-    compliance += (share(placed.outer_radius) - below) / placed.material.contact_modulus();
+    compliance += (share(placed.outer_radius) - below) / placed.contact_modulus();
   }
   return 1 / compliance;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "wheelwright/case/case.h"
+#include "wheelwright/case/case_key.h"
 #include "wheelwright/mechanics/elasticity/materials.h"
 
 namespace wheelwright {
@@ -11,9 +13,36 @@ namespace wheelwright {
 /// An annulus of the ring of one material.
 struct PlacedMaterial {
   double inner_radius, outer_radius;  ///< [m]
-  Material material;
+  std::variant<Material, OrthotropicMaterial> material;
   std::optional<std::size_t> layer;  ///< of the case; nothing for what lies in none
+
+  /// Its constants; null if it is of the other kind.
+  const Material* isotropic() const { return std::get_if<Material>(&material); }
+  const OrthotropicMaterial* orthotropic() const { return std::get_if<OrthotropicMaterial>(&material); }
+
+  /// Young's modulus; that along the radius of an orthotropic material [Pa].
+  double youngs_modulus() const;
+  /// E* of Hertz's theory [Pa].
+  double contact_modulus() const;
+  std::optional<double> density() const;  ///< [kg/m^3]
+  /// The least share of a unit compliance: near 0 elements lock. 1 - 2 nu of an isotropic material in plane
+  /// strain.
+  double least_compliance() const;
+
+  CaseKey youngs_modulus_key() const;
+  CaseKey poissons_ratio_key() const;  ///< that of radius and azimuth of an orthotropic material
 };
+
+using OrthotropicConstant = std::optional<double> OrthotropicConstants::*;
+
+/// The constants that every orthotropic material of the case must have.
+std::vector<OrthotropicConstant> needed_constants(const Case& c);
+
+/// Those that the case gives for a layer, or for what lies in none.
+const OrthotropicConstants& orthotropic_constants(const Case& c, const std::optional<std::size_t>& layer);
+
+/// The key of a constant of a layer, or of what lies in none.
+CaseKey key_of_constant(const std::optional<std::size_t>& layer, OrthotropicConstant constant);
 
 /// The radii between which a layer of the case lies.
 struct LayerRadii {
@@ -24,22 +53,27 @@ LayerRadii radii(const Case& c, const MaterialLayer& layer);
 /// The name of a layer, or "layer 2" for the second one if it has none.
 std::string name_of_layer(const Case& c, std::size_t layer);
 
+/// The orthotropic material of a layer, or of what lies in none, with the constants of an isotropic one where
+/// they are missing; nothing if it is isotropic.
+std::optional<OrthotropicMaterial> orthotropic_material(const Case& c,
+                                                        const std::optional<std::size_t>& layer);
+
 /// The ring from the rim to the tread: the layers of the case, and the material of the rest between them. The
-/// layers must not overlap.
+/// layers must not overlap. Orthotropic materials that are not stable are shown without Poisson's ratios.
 std::vector<PlacedMaterial> placed_materials(const Case& c);
 
 /// The same for the mechanics.
 template <int dim>
 Materials<dim> materials(const Case& c);
 
-/// Whether with this many radial cells the layers end on lines of the grid.
+/// Whether with this many radial cells the layers end on lines of the grid, and cords lie on lines.
 bool layers_fit(const Case& c, int radial_cells);
 
 /// Whether the density of every material of the ring is known.
 bool all_have_density(const Case& c);
 
 /// The material at the tread.
-Material tread_material(const Case& c);
+PlacedMaterial tread_material(const Case& c);
 
 /// E* of the material at a radius [Pa].
 double modulus_at(const Case& c, double radius);

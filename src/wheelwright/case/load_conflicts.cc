@@ -34,11 +34,9 @@ void check_load(const SingleLoad& single, Conflicts& found) {
   const double advised = 0.1 * contact_radius(c), factor = advised / half_width;  // strains of 5 %
   if (is_overloaded_in_pascals(c)) {
     const PlacedMaterial tread = placed_materials(c).back();
-    found.push_back({{tread.layer ? key_of(&MaterialLayer::youngs_modulus, *tread.layer)
-                                  : key_of(&Material::youngs_modulus),
-                      single.key(&Load::force)},
+    found.push_back({{tread.youngs_modulus_key(), single.key(&Load::force)},
                      "so small that the load would flatten a solid disc",
-                     question_of_megapascals(tread.material.youngs_modulus)});
+                     question_of_megapascals(tread.youngs_modulus())});
     return;
   }
   found.push_back(
@@ -119,9 +117,9 @@ double rotation_strain(const Case& c) {
   const std::vector<PlacedMaterial> ring = placed_materials(c);
   const auto square = [&](double radius) { return std::pow(radius / c.wheel.outer_radius, 2); };
   double mass = 0;  // over the area of the whole disc
-  for (const auto& [inner, outer, material, layer] : ring)
-    mass += *material.density * (square(outer) - square(inner));
-  return 0.5 * mass * c.load.speed * c.load.speed / ring.front().material.contact_modulus();
+  for (const PlacedMaterial& placed : ring)
+    mass += *placed.density() * (square(placed.outer_radius) - square(placed.inner_radius));
+  return 0.5 * mass * c.load.speed * c.load.speed / ring.front().contact_modulus();
 }
 
 /// The centrifugal load needs a mass, and must strain the wheel by less than a quarter.

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
@@ -30,6 +33,89 @@ void check_compressibility(const Case& c, const Material& material, const CaseKe
     found.push_back({{ratio, key_of(&Material::plane)},
                      "so close to 1/2 that rounding would spoil the solution",
                      fmt::format("use at most {}: the difference to 1/2 does not matter", largest)});
+}
+
+/// The names of keys in a sentence.
+std::string listed(const CaseKeys& keys) {
+  std::vector<std::string_view> names;
+  for (const CaseKey& key : keys) names.push_back(key.names.front());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// All constants of an orthotropic material must be given, and the energy of every strain positive.
+bool check_constants(const Case& c, const std::optional<std::size_t>& layer, Conflicts& found) {
+  using Constants = OrthotropicConstants;
+  const Constants& values = orthotropic_constants(c, layer);
+  const auto key = [&](OrthotropicConstant constant) { return key_of_constant(layer, constant); };
+  CaseKeys given, missing;
+  for (const OrthotropicConstant constant : needed_constants(c))
+    (values.*constant ? given : missing).push_back(key(constant));
+  if (!missing.empty()) {
+    found.push_back({joined({given, missing}), "an orthotropic material has more constants",
+                     fmt::format("add {}, or use youngs_modulus and poissons_ratio alone", listed(missing))});
+    return false;
+  }
+  const auto material = orthotropic_material(c, layer);
+  if (!material || material->is_stable()) return true;
+  const auto [rt, rz, tz] = material->couplings();
+  struct Pair {
+    double coupling;
+    OrthotropicConstant ratio, first, second;
+  };
+  const Pair pairs[] = {{rt, &Constants::poissons_ratio_radial_azimuthal, &Constants::youngs_modulus_radial,
+                         &Constants::youngs_modulus_azimuthal},
+                        {rz, &Constants::poissons_ratio_radial_axial, &Constants::youngs_modulus_radial,
+                         &Constants::youngs_modulus_axial},
+                        {tz, &Constants::poissons_ratio_azimuthal_axial, &Constants::youngs_modulus_azimuthal,
+                         &Constants::youngs_modulus_axial}};
+  bool pairs_are_stable = true;
+  CaseKeys ratios;
+  for (const auto& [coupling, ratio, first, second] : pairs) {
+    ratios.push_back(key(ratio));
+    if (std::abs(coupling) < 1) continue;
+    pairs_are_stable = false;
+    const CaseKeys keys{key(ratio), key(first), key(second)};
+    found.push_back(
+        {keys,
+         fmt::format("some strains would have negative energy: {}^2 < {} / {} is not true",
+                     keys[0].names.front(), keys[1].names.front(), keys[2].names.front()),
+         fmt::format("use less than {:.4g} in absolute value", std::abs(*(values.*ratio) / coupling))});
+  }
+  if (pairs_are_stable) {
+    CaseKeys keys = ratios;
+    for (const OrthotropicConstant modulus :
+         {&Constants::youngs_modulus_radial, &Constants::youngs_modulus_azimuthal,
+          &Constants::youngs_modulus_axial})
+      keys.push_back(key(modulus));
+    found.push_back(
+        {keys,
+         fmt::format("some strains would have negative energy: with {} the number 1 - nu_rt nu_tr - "
+                     "nu_rz nu_zr - nu_tz nu_zt - 2 nu_rt nu_tz nu_zr is {:.4g} and not positive",
+                     listed(ratios), material->determinant()),
+         "use smaller ratios"});
+  }
+  return false;
+}
+
+/// Displacement elements of an orthotropic material are not mixed with a pressure.
+void check_locking(const Case& c, const PlacedMaterial& placed, Conflicts& found) {
+  const double least = placed.least_compliance();
+  const CaseKeys keys{placed.poissons_ratio_key(),
+                      key_of_constant(placed.layer, &OrthotropicConstants::poissons_ratio_radial_axial),
+                      key_of_constant(placed.layer, &OrthotropicConstants::poissons_ratio_azimuthal_axial),
+                      key_of(&Grid::degree), key_of(&Material::plane)};
+  const auto refuse = [&](std::string problem, std::string remedy) {
+    found.push_back({keys, std::move(problem), std::move(remedy)});
+  };
+  if (placed.orthotropic()->locks())
+    refuse(
+        "so near the end of their range that elements would lock, like those of an isotropic material with "
+        "nu > 0.485",
+        "use smaller ratios; only isotropic materials may be nearly incompressible");
+  else if (c.grid.degree == 1 && least < 0.2)
+    refuse(
+        "so large that elements of degree 1 are too stiff, like those of an isotropic material with nu > 0.4",
+        "use degree = 2, or smaller ratios");
 }
 
 /// Names are parts of names of files.
@@ -114,6 +200,46 @@ void check_lines(const Case& c, Conflicts& found) {
   }
 }
 
+/// Cords lie on lines of the grid, in material without holes, below the condensed rows at the tread.
+void check_cords(const Case& c, Conflicts& found) {
+  const double rim = c.wheel.inner_radius, tread = c.wheel.outer_radius,
+               row = (tread - rim) / c.grid.radial_cells, rounding = 1e-6 * row;
+  const Bands solid = bands(c);
+  std::vector<SolidAnnulus> annuli = solid.between;
+  annuli.push_back({rim, rim + solid.rim.thickness});
+  annuli.push_back({tread - solid.tread.thickness, tread});
+  for (std::size_t i = 0; i < c.cords.size(); ++i) {
+    const double radius = c.cords[i].radius;
+    const CaseKeys keys{key_of(&MaterialCord::radius, i), key_of(&Grid::radial_cells),
+                        key_of(&Wheel::inner_radius), key_of(&Wheel::outer_radius)};
+    const double line = (radius - rim) / row, nearest = rim + std::round(line) * row;
+    const double highest = tread - tread_rows(c) * row;
+    if (std::abs(line - std::round(line)) >= 1e-6) {
+      const std::string cells = fitting_cells(c);
+      found.push_back(
+          {keys,
+           fmt::format("{:.6g} m lies between two lines of the grid, whose {} rows are {:.4g} mm high",
+                       radius, c.grid.radial_cells, 1e3 * row),
+           fmt::format("use {}{:.6g} m, the nearest line",
+                       cells.empty() ? "" : fmt::format("grid.radial_cells = {}, or ", cells), nearest)});
+    } else if (radius < rim + row - rounding || radius > highest + rounding) {
+      found.push_back({keys,
+                       "cords lie between the rim and the rows of cells at the tread, which are condensed",
+                       fmt::format("use {:.6g} m to {:.6g} m", rim + row, highest)});
+    } else if (std::ranges::none_of(annuli, [&](const SolidAnnulus& annulus) {
+                 return radius - row > annulus.inner - rounding && radius < annulus.outer + rounding;
+               })) {
+      found.push_back(
+          {{key_of(&MaterialCord::radius, i), key_of(&Optimizer::rim_band), key_of(&Optimizer::tread_band),
+            table_of<MaterialCord>(i)},
+           fmt::format("holes may reach the cords: the row of cells below {:.6g} m is in no layer "
+                       "with holes = \"none\" and in no band at rim or tread",
+                       radius),
+           "put the cords into such a layer or band"});
+    }
+  }
+}
+
 /// The condensed rows at the tread, of which there are several with an annulus, must be of one material.
 void check_annulus(const Case& c, Conflicts& found) {
   const PlacedMaterial outermost = placed_materials(c).back();
@@ -129,22 +255,21 @@ void check_annulus(const Case& c, Conflicts& found) {
        fmt::format("use objective.annulus <= {:.6g}", thickness)});
 }
 
-/// Whether some of the ring lies in no layer.
-bool has_rest(const Case& c) {
-  return std::ranges::any_of(placed_materials(c),
-                             [](const PlacedMaterial& placed) { return !placed.layer.has_value(); });
-}
-
 }  // namespace
 
 void material_conflicts(const Case& c, Conflicts& found) {
   check_names(c, found);
   if (c.wheel.inner_radius >= c.wheel.outer_radius || !check_places(c, found)) return;
-  if (has_rest(c)) check_compressibility(c, c.material, key_of(&Material::poissons_ratio), found);
-  for (const PlacedMaterial& placed : placed_materials(c))
-    if (placed.layer)
-      check_compressibility(c, placed.material, key_of(&MaterialLayer::poissons_ratio, *placed.layer), found);
+  std::set<std::optional<std::size_t>> seen;
+  for (const PlacedMaterial& placed : placed_materials(c)) {
+    if (!seen.insert(placed.layer).second) continue;
+    if (placed.isotropic())
+      check_compressibility(c, *placed.isotropic(), placed.poissons_ratio_key(), found);
+    else if (check_constants(c, placed.layer, found))
+      check_locking(c, placed, found);
+  }
   check_lines(c, found);
+  check_cords(c, found);
   check_annulus(c, found);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/single_load.h"
 
@@ -40,6 +41,11 @@ void check_nucleation(const Case& c, Conflicts& found) {
   if (const auto pressed = std::ranges::find_if(loads, has_pressure); pressed != loads.end())
     refuse({key_of(&Optimizer::nucleation), pressed->key(&Load::hole_pressure)},
            "nucleation does not support hole pressure");
+  const std::vector<PlacedMaterial> ring = placed_materials(c);
+  const auto orthotropic = std::ranges::find_if(ring, &PlacedMaterial::orthotropic);
+  if (orthotropic != ring.end() && optimizes_stresses(c))
+    refuse({key_of(&Optimizer::nucleation), key_of(&Objective::minimize), orthotropic->youngs_modulus_key()},
+           "the effect of new holes on stresses is known only in isotropic materials");
 }
 
 }  // namespace

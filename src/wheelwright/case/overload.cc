@@ -24,7 +24,7 @@ std::string question_of_megapascals(double modulus) {
 }
 
 bool is_overloaded_in_pascals(const Case& c) {
-  return may_be_in_megapascals(tread_material(c).youngs_modulus) && is_overloaded(c);
+  return may_be_in_megapascals(tread_material(c).youngs_modulus()) && is_overloaded(c);
 }
 
 }  // namespace wheelwright

@@ -363,7 +363,10 @@ void check_presence(Reading& reading, const std::string& parent, const toml::tab
   const auto begin = table.source().begin;
   for (const BoundKey& key : keys) {
     const std::string path = join_path(parent, key.name);
-    if (key.presence == Presence::required && !table.contains(key.name))
+    const bool has_another = std::ranges::any_of(keys, [&](const BoundKey& other) {
+      return are_alternatives(other, key) && table.contains(other.name);
+    });
+    if (key.presence == Presence::required && !has_another)
       complain(reading, path, {static_cast<int>(begin.line), static_cast<int>(begin.column), ""},
                {Kind::missing_key, "missing", fmt::format("add it ({})", key.meaning)});
   }

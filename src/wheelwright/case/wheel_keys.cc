@@ -49,33 +49,106 @@ const Section<Wheel>& wheel_section() {
 
 namespace {
 
-constexpr Range modulus = above(0, 1e13), ratio = at_least_and_below(0, 0.5), densities = above(0, 1e5);
-constexpr std::string_view meaning_of_ratio =
-    "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, if plane = \"strain\"";
+constexpr Range modulus = above(0, 1e13), ratio = at_least_and_below(0, 0.5), densities = above(0, 1e5),
+                any_ratio = between(-100, 100);
+constexpr std::string_view
+    meaning_of_modulus =
+        "E: Young's modulus of an isotropic material; an orthotropic one has youngs_modulus_radial and "
+        "others",
+    meaning_of_ratio =
+        "nu: Poisson's ratio of an isotropic material; at most 0.49999 and, above 0.485, with "
+        "grid.degree = 2, if plane = \"strain\"",
+    isotropic = "the material is isotropic";
+
+/// The constants of an orthotropic material, as keys of Struct.
+template <class Struct>
+std::vector<Key<Struct>> orthotropic_keys() {
+  const auto number = [](std::optional<double> Struct::*member, const Range& range) {
+    return OptionalNumberField<Struct>{member, range, isotropic};
+  };
+  return {{.name = "youngs_modulus_radial",
+           .unit = "Pa",
+           .field = number(&Struct::youngs_modulus_radial, modulus),
+           .meaning = "E_r: Young's modulus along the radius of an orthotropic material, which also needs "
+                      "all constants below; G_rz and G_tz only in 3D",
+           .instead_of = "youngs_modulus"},
+          {.name = "youngs_modulus_azimuthal",
+           .unit = "Pa",
+           .field = number(&Struct::youngs_modulus_azimuthal, modulus),
+           .meaning = "E_t: Young's modulus along the azimuth"},
+          {.name = "youngs_modulus_axial",
+           .unit = "Pa",
+           .field = number(&Struct::youngs_modulus_axial, modulus),
+           .meaning = "E_z: Young's modulus along the axle"},
+          {.name = "poissons_ratio_radial_azimuthal",
+           .field = number(&Struct::poissons_ratio_radial_azimuthal, any_ratio),
+           .meaning = "nu_rt: contraction along the azimuth by extension along the radius, under a stress "
+                      "along the radius; nu_rt / E_r = nu_tr / E_t",
+           .instead_of = "poissons_ratio"},
+          {.name = "poissons_ratio_radial_axial",
+           .field = number(&Struct::poissons_ratio_radial_axial, any_ratio),
+           .meaning = "nu_rz: contraction along the axle, under a stress along the radius"},
+          {.name = "poissons_ratio_azimuthal_axial",
+           .field = number(&Struct::poissons_ratio_azimuthal_axial, any_ratio),
+           .meaning = "nu_tz: contraction along the axle, under a stress along the azimuth"},
+          {.name = "shear_modulus_radial_azimuthal",
+           .unit = "Pa",
+           .field = number(&Struct::shear_modulus_radial_azimuthal, modulus),
+           .meaning = "G_rt: shear modulus in the plane of the wheel"},
+          {.name = "shear_modulus_radial_axial",
+           .unit = "Pa",
+           .field = number(&Struct::shear_modulus_radial_axial, modulus),
+           .meaning = "G_rz: shear modulus in planes through the axle; only in 3D"},
+          {.name = "shear_modulus_azimuthal_axial",
+           .unit = "Pa",
+           .field = number(&Struct::shear_modulus_azimuthal_axial, modulus),
+           .meaning = "G_tz: shear modulus in planes across the radius; only in 3D"}};
+}
+
+/// With the constants of an orthotropic material.
+template <class Struct>
+std::vector<Key<Struct>> with_orthotropic_keys(std::vector<Key<Struct>> keys) {
+  for (Key<Struct>& key : orthotropic_keys<Struct>()) keys.push_back(std::move(key));
+  return keys;
+}
+
+MaterialLayer example_of_a_layer() {
+  MaterialLayer layer;
+  layer.name = "tyre";
+  layer.inner_radius = 0.33;
+  layer.youngs_modulus = 30e6;
+  layer.poissons_ratio = 0.48;
+  return layer;
+}
 
 }  // namespace
 
-const Section<Material>& material_section() {
-  static const Section<Material> section{
+const Section<RingMaterial>& material_section() {
+  using Struct = RingMaterial;
+  static const Section<Struct> section{
       .name = "material",
-      .meaning = "linear isotropic elasticity",
-      .in = [](Case& c) -> Material& { return c.material; },
-      .keys = {{.name = "youngs_modulus",
-                .unit = "Pa",
-                .field = NumberField<Material>{&Material::youngs_modulus, modulus},
-                .meaning = "E: Young's modulus"},
-               {.name = "poissons_ratio",
-                .field = NumberField<Material>{&Material::poissons_ratio, ratio},
-                .meaning = meaning_of_ratio},
-               {.name = "plane",
-                .field = choice<&Material::plane>({"strain", "stress"}),
-                .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
-                           "axle, for wheels cut from sheet"},
-               {.name = "density",
-                .unit = "kg/m^3",
-                .field = OptionalNumberField<Material>{&Material::density, densities, "no mass is shown"},
-                .meaning = "for the mass of the wheel, also if it is minimized or bounded, and for "
-                           "load.speed; the weight is set by load.body_force"}}};
+      .meaning = "linear elasticity, isotropic or orthotropic with the axes radius, azimuth and axle",
+      .in = [](Case& c) -> Struct& { return c.material; },
+      .keys = with_orthotropic_keys<Struct>(
+          {{.name = "youngs_modulus",
+            .unit = "Pa",
+            .field = NumberField<Struct>{&Struct::youngs_modulus, modulus},
+            .meaning = meaning_of_modulus},
+           {.name = "poissons_ratio",
+            .field = NumberField<Struct>{&Struct::poissons_ratio, ratio},
+            .meaning = meaning_of_ratio},
+           {.name = "plane",
+            .field = ChoiceField<Struct>{{"strain", "stress"},
+                                         [](const Struct& s) { return static_cast<int>(s.plane); },
+                                         [](Struct& s, int i) { s.plane = static_cast<Plane>(i); },
+                                         [](const Struct& s) -> const void* { return &s.plane; }},
+            .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
+                       "axle, for wheels cut from sheet"},
+           {.name = "density",
+            .unit = "kg/m^3",
+            .field = OptionalNumberField<Struct>{&Struct::density, densities, "no mass is shown"},
+            .meaning = "for the mass of the wheel, also if it is minimized or bounded, and for "
+                       "load.speed; the weight is set by load.body_force"}})};
   return section;
 }
 
@@ -85,35 +158,57 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
       .name = "layer",
       .meaning =
           "a ring of another material between two radii, bonded to what lies inside and outside of it: "
-          "linear isotropic elasticity, in the plane of [material], which is the material of what lies "
-          "in no layer; layers do not overlap, and their radii lie on lines of the grid, of which there are "
+          "linear elasticity, isotropic or orthotropic, in the plane of [material], which is the material of "
+          "what lies in no layer; layers do not overlap, and their radii lie on lines of the grid, of which "
+          "there are "
           "grid.radial_cells + 1 at equal distances",
       .in = [](Case& c) -> std::vector<MaterialLayer>& { return c.layers; },
-      .example = {.name = "tyre", .inner_radius = 0.33, .youngs_modulus = 30e6, .poissons_ratio = 0.48},
-      .keys = {{.name = "name",
-                .field = TextField<MaterialLayer>{&MaterialLayer::name, "its number"},
-                .meaning = "a word of letters, digits, - and _, for messages and names of files, e.g. tyre"},
-               radius_key<MaterialLayer>(&MaterialLayer::inner_radius, "inner_radius", "wheel.inner_radius",
-                                         "where the layer begins"),
-               radius_key<MaterialLayer>(&MaterialLayer::outer_radius, "outer_radius", "wheel.outer_radius",
-                                         "where it ends"),
-               {.name = "youngs_modulus",
-                .unit = "Pa",
-                .field = NumberField<MaterialLayer>{&MaterialLayer::youngs_modulus, modulus},
-                .meaning = "E: Young's modulus",
-                .presence = Presence::required},
-               {.name = "poissons_ratio",
-                .field = NumberField<MaterialLayer>{&MaterialLayer::poissons_ratio, ratio},
-                .meaning = meaning_of_ratio,
-                .presence = Presence::required},
-               {.name = "density",
-                .unit = "kg/m^3",
-                .field = OptionalNumberField<MaterialLayer>{&MaterialLayer::density, densities,
-                                                            "no mass is shown"},
-                .meaning = "for the mass of the wheel and for load.speed, which need that of every material"},
-               {.name = "holes",
-                .field = choice<&MaterialLayer::holes>({"allowed", "none"}),
-                .meaning = "none: the layer stays solid, like a protected band of its thickness"}}};
+      .example = example_of_a_layer(),
+      .keys = with_orthotropic_keys<MaterialLayer>(
+          {{.name = "name",
+            .field = TextField<MaterialLayer>{&MaterialLayer::name, "its number"},
+            .meaning = "a word of letters, digits, - and _, for messages and names of files, e.g. tyre"},
+           radius_key<MaterialLayer>(&MaterialLayer::inner_radius, "inner_radius", "wheel.inner_radius",
+                                     "where the layer begins"),
+           radius_key<MaterialLayer>(&MaterialLayer::outer_radius, "outer_radius", "wheel.outer_radius",
+                                     "where it ends"),
+           {.name = "youngs_modulus",
+            .unit = "Pa",
+            .field = NumberField<MaterialLayer>{&MaterialLayer::youngs_modulus, modulus},
+            .meaning = meaning_of_modulus,
+            .presence = Presence::required},
+           {.name = "poissons_ratio",
+            .field = NumberField<MaterialLayer>{&MaterialLayer::poissons_ratio, ratio},
+            .meaning = meaning_of_ratio,
+            .presence = Presence::required},
+           {.name = "density",
+            .unit = "kg/m^3",
+            .field =
+                OptionalNumberField<MaterialLayer>{&MaterialLayer::density, densities, "no mass is shown"},
+            .meaning = "for the mass of the wheel and for load.speed, which need that of every material"},
+           {.name = "holes",
+            .field = choice<&MaterialLayer::holes>({"allowed", "none"}),
+            .meaning = "none: the layer stays solid, like a protected band of its thickness"}})};
+  return sections;
+}
+
+const SectionArray<MaterialCord>& material_cord_sections() {
+  static const SectionArray<MaterialCord> sections{
+      .parent = "material",
+      .name = "cord",
+      .meaning =
+          "thin cords side by side along a circle, such as a belt: they resist strain along the azimuth "
+          "alone, and have no mass. The circle is a line of the grid, of which there are "
+          "grid.radial_cells + 1 at equal distances, and lies in material that has no holes: a layer "
+          "with holes = \"none\", or a band at rim or tread",
+      .in = [](Case& c) -> std::vector<MaterialCord>& { return c.cords; },
+      .example = {.radius = 0.335, .stiffness = 2e6},
+      .keys = {length_key<MaterialCord>(&MaterialCord::radius, "radius", "radius of the circle"),
+               {.name = "stiffness",
+                .unit = "N/m",
+                .field = NumberField<MaterialCord>{&MaterialCord::stiffness, above(0, 1e13)},
+                .meaning = "E A: force by strain of the cords, per width along the axle",
+                .presence = Presence::required}}};
   return sections;
 }
 

@@ -129,6 +129,25 @@ void weighted_stresses(const MaterialLaw<dim>& law, const OnDofs<dim>& strains, 
     for (int dof = 0; dof < n_dofs; ++dof) component[dof] *= weight;
 }
 
+/// Turns strains on dofs to axes whose first one lies at the azimuth of a place.
+template <int dim>
+void turn_to_polar_axes(const Vec<dim>& place, int n_dofs, OnDofs<dim>& strain) {
+  const double radius = std::hypot(place[0], place[1]), c = place[0] / radius, s = place[1] / radius;
+  auto &first = strain[0], &second = strain[1], &shear = strain[n_strains<dim> - 1];
+  for (int dof = 0; dof < n_dofs; ++dof) {
+    const double a = first[dof], b = second[dof], g = shear[dof], half = c * s * g;
+    first[dof] = c * c * a + s * s * b + half;
+    second[dof] = s * s * a + c * c * b - half;
+    shear[dof] = 2 * c * s * (b - a) + (c * c - s * s) * g;
+  }
+  if constexpr (dim == 3)
+    for (int dof = 0; dof < n_dofs; ++dof) {
+      const double of_second = strain[3][dof], of_first = strain[4][dof];
+      strain[3][dof] = c * of_second - s * of_first;
+      strain[4][dof] = s * of_second + c * of_first;
+    }
+}
+
 }  // namespace
 
 template <int dim>
@@ -146,7 +165,7 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal) {
 template <int dim>
 ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
                                     const MaterialLaw<dim>& law, DilatationKind dilatation)
-    : degree_(degree), map_(grid, degree, cell) {
+    : degree_(degree), has_polar_strains_(law.has_polar_axes()), map_(grid, degree, cell) {
   const double spacing = grid.cell_size()[1] / degree;
   for (int a = 0; a < n_nodes(); ++a) {
     const double angle = local_node_position<dim>(degree, a)[1] * spacing;
@@ -238,31 +257,46 @@ auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
   return point;
 }
 
+namespace {
+
+/// With the strain of u itself in the frame of the cell. A function of its own, so that a test for polar axes
+/// after it does not change how the compiler rounds.
 template <int dim>
-auto ElasticElement<dim>::with_own_strain(const Vec<dim>& xi) const -> Point {
-  const ShapeFunctions<dim> shape(degree_, xi);
-  const Mat<dim> jacobian = map_.jacobian(shape);
-  Point point{.position = map_.position(shape),
-              .jacobian = jacobian,
-              .determinant = determinant<dim>(jacobian),
-              .strain = {},
-              .displacement = {},
-              .dilatation = {}};
+[[gnu::noinline]] typename ElasticElement<dim>::Point in_frame_of_cell(
+    const CellMap<dim>& map, int degree, const std::array<Mat<dim>, ElasticElement<dim>::max_nodes>& frames,
+    const Vec<dim>& xi) {
+  const ShapeFunctions<dim> shape(degree, xi);
+  const Mat<dim> jacobian = map.jacobian(shape);
+  typename ElasticElement<dim>::Point point{.position = map.position(shape),
+                                            .jacobian = jacobian,
+                                            .determinant = determinant<dim>(jacobian),
+                                            .strain = {},
+                                            .displacement = {},
+                                            .dilatation = {}};
   const Mat<dim> inverse_jacobian = inverse<dim>(jacobian);
   constexpr auto indices = voigt_indices<dim>();
-  for (int a = 0; a < n_nodes(); ++a) {
+  for (int a = 0; a < nodes_per_cell<dim>(degree); ++a) {
     const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
     for (int c = 0; c < dim; ++c) {
-      const int k = dof(a, c);
-      for (int i = 0; i < dim; ++i) point.displacement[i][k] = frames_[a][i][c] * shape.value[a];
+      const int k = ElasticElement<dim>::dof(a, c);
+      for (int i = 0; i < dim; ++i) point.displacement[i][k] = frames[a][i][c] * shape.value[a];
       for (int s = 0; s < n_strains<dim>; ++s) {
         const auto [i, j] = indices[s];
-        point.strain[s][k] = frames_[a][i][c] * gradient[j];
-        if (i != j) point.strain[s][k] += frames_[a][j][c] * gradient[i];
+        point.strain[s][k] = frames[a][i][c] * gradient[j];
+        if (i != j) point.strain[s][k] += frames[a][j][c] * gradient[i];
       }
       for (int d = 0; d < dim; ++d) point.dilatation[k] += point.strain[d][k];
     }
   }
+  return point;
+}
+
+}  // namespace
+
+template <int dim>
+auto ElasticElement<dim>::with_own_strain(const Vec<dim>& xi) const -> Point {
+  Point point = in_frame_of_cell<dim>(map_, degree_, frames_, xi);
+  if (has_polar_strains_) turn_to_polar_axes<dim>(point.position, n_dofs(), point.strain);
   return point;
 }
 
@@ -300,8 +334,11 @@ auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, int axis, const 
   return result;
 }
 
+namespace {
+
+/// The traction as a linear map of the dofs, in the axes of the strains, as is the normal.
 template <int dim>
-std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
+std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_on_axes(
     const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
     const typename ElasticElement<dim>::Point& point, const Vec<dim>& normal) {
   const auto lame = lame_constants(law);
@@ -311,6 +348,24 @@ std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
     for (int s = 0; s < n_strains<dim>; ++s) strain[s] = point.strain[s][dof];
     const Voigt<dim> sigma = lame ? stress<dim>(*lame, strain) : stress<dim>(law, strain);
     const Vec<dim> t = traction<dim>(sigma, normal);
+    for (int d = 0; d < dim; ++d) result[d][dof] = t[d];
+  }
+  return result;
+}
+
+}  // namespace
+
+template <int dim>
+std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
+    const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
+    const typename ElasticElement<dim>::Point& point, const Vec<dim>& normal) {
+  if (!element.has_polar_strains()) return traction_on_axes<dim>(element, law, point, normal);
+  const AxleRotation axes(element.azimuth_of_strains(point.position));
+  auto result = traction_on_axes<dim>(element, law, point, axes.back(normal));
+  for (int dof = 0; dof < element.n_dofs(); ++dof) {
+    Vec<dim> t;
+    for (int d = 0; d < dim; ++d) t[d] = result[d][dof];
+    t = axes.forward(t);
     for (int d = 0; d < dim; ++d) result[d][dof] = t[d];
   }
   return result;

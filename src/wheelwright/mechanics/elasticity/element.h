@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "wheelwright/linalg/dense.h"
@@ -19,7 +20,7 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
 /// The displacement element of the cells in one row of the grid, which have the same material. Its dofs are
 /// the nodal displacements in the polar components (radial, azimuthal[, axial]) at each node, numbered by
 /// dof(). All results are in the Cartesian frame of the cell: its first axis is radial at the first azimuth
-/// of the cell.
+/// of the cell. Only strains are in polar axes at their point if the law has such axes.
 ///
 /// If the dilatation is projected, most of the bulk modulus of the element of degree 2 works on div u
 /// projected in L2 on the linear functions of x, on the part of the cell that is material: the mixed element
@@ -33,7 +34,7 @@ class ElasticElement {
   static constexpr int max_dofs = dim * max_nodes;
 
   /// `cell` is a position on the grid; its azimuthal part does not matter. The dilatation is projected only
-  /// if the degree is 2 and the law isotropic.
+  /// if the degree is 2 and the law isotropic. Forms and tractions of the element take the same law.
   ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
                  const MaterialLaw<dim>& law, DilatationKind dilatation = DilatationKind::automatic);
 
@@ -54,7 +55,7 @@ class ElasticElement {
     Vec<dim> position;  ///< x in the frame of the cell
     Mat<dim> jacobian;
     double determinant;
-    std::array<std::array<double, max_dofs>, n_strains<dim>> strain;  ///< rows: Voigt components
+    std::array<std::array<double, max_dofs>, n_strains<dim>> strain;  ///< rows: Voigt components for the law
     std::array<std::array<double, max_dofs>, dim> displacement;       ///< rows: components
     std::array<double, max_dofs> dilatation;                          ///< div u, never projected
   };
@@ -63,6 +64,14 @@ class ElasticElement {
   Point at(const Vec<dim>& xi) const;
   /// With the strain of u itself.
   Point with_own_strain(const Vec<dim>& xi) const;
+
+  /// Whether strains are in polar axes.
+  bool has_polar_strains() const { return has_polar_strains_; }
+  /// The azimuth of the first axis of strains at a place, both in the frame of the cell [rad]: 0, or that of
+  /// the place.
+  double azimuth_of_strains(const Vec<dim>& position) const {
+    return has_polar_strains_ ? std::atan2(position[1], position[0]) : 0;
+  }
 
   /// The gradient of u: du_i / dx_j in row dim * i + j.
   std::array<std::array<double, max_dofs>, dim * dim> gradient(const Vec<dim>& xi) const;
@@ -87,6 +96,7 @@ class ElasticElement {
 
  private:
   int degree_;
+  bool has_polar_strains_;
   CellMap<dim> map_;
   std::array<Mat<dim>, max_nodes> frames_;  ///< polar to Cartesian components at each node
   double plane_diameter_, axial_length_ = 0;
@@ -109,7 +119,7 @@ struct DilatationMoments {
   Matrix coefficients() const;
 };
 
-/// The traction sigma n as a linear map of the dofs (rows: components).
+/// The traction sigma n as a linear map of the dofs (rows: components); all in the frame of the cell.
 template <int dim>
 std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
     const ElasticElement<dim>& element, const MaterialLaw<dim>& law,

@@ -4,14 +4,16 @@
 #include <string>
 
 #include "wheelwright/mechanics/elasticity/material.h"
+#include "wheelwright/mechanics/elasticity/orthotropic_material.h"
 #include "wheelwright/mechanics/elasticity/voigt.h"
 
 namespace wheelwright {
 
 /// The response of a material to small strains. It is asked for blocks of points: argument and result hold
 /// the components of all points, [component][point], and the same number of points, in the frame of a cell:
-/// the first axis is radial at the cell's first azimuth. Where dim = 2 it is the law in the plane of the
-/// wheel, so that plane strain and plane stress are two laws.
+/// the first axis is radial at the cell's first azimuth. With has_polar_axes() they are in the axes of every
+/// point instead: radial, azimuthal[, axial]. Where dim = 2 it is the law in the plane of the wheel, so that
+/// plane strain and plane stress are two laws.
 ///
 /// A law is called by several threads at once. A program that uses the library derives its own law and puts
 /// it into RollingModel::materials (examples/own_material).
@@ -22,6 +24,10 @@ class MaterialLaw {
 
   /// Whether the stress is a linear function of the strain, zero at zero strain.
   virtual bool is_linear() const = 0;
+
+  /// Whether strains and stresses are in polar axes at every point, and not in the frame of the cell: for a
+  /// material whose axes follow the radius. A ring of such a material is the same after every turn.
+  virtual bool has_polar_axes() const { return false; }
 
   /// sigma [Pa].
   virtual void stress(const StrainRows<dim>& strains, const StressRows<dim>& stresses) const = 0;
@@ -56,8 +62,11 @@ class MaterialLaw {
   virtual std::optional<double> density() const { return {}; }
 
   /// The constants of isotropic linear elasticity; null for other laws. Elements without locking and
-  /// derivatives with respect to small holes are known for isotropic materials only.
+  /// derivatives of stresses with respect to small holes are known for isotropic materials only.
   virtual const Material* isotropic() const { return nullptr; }
+
+  /// The constants of orthotropic linear elasticity with polar axes; null for other laws.
+  virtual const OrthotropicMaterial* orthotropic() const { return nullptr; }
 };
 
 /// The stress at one point.

@@ -10,7 +10,7 @@
 namespace wheelwright {
 
 /// The material law at every place of the ring: annular layers that are bonded to each other, each of one
-/// material. Laws are always looked up by place.
+/// material. Laws are always looked up by place. Thin cords may be bonded to it along circles.
 template <int dim>
 class Materials {
  public:
@@ -18,6 +18,12 @@ class Materials {
   struct Layer {
     double outer_radius;  ///< [m]; that of the last layer does not matter: it reaches the tread
     std::shared_ptr<const MaterialLaw<dim>> law;
+  };
+
+  /// Cords side by side along a circle, as thick as a line.
+  struct Cord {
+    double radius;     ///< [m]
+    double stiffness;  ///< E A per width along the axle [N/m]
   };
 
   Materials() : Materials(Material()) {}
@@ -29,9 +35,19 @@ class Materials {
   /// Layers from the rim to the tread, at least one. The radii between them must be those of lines of the
   /// model's grid (fit()), below its condensed rows (TreadGrid): the response of a stiff band on a soft layer
   /// would not decay within half the ring.
-  explicit Materials(std::vector<Layer> layers) : layers_(std::move(layers)) {}
+  explicit Materials(std::vector<Layer> layers, std::vector<Cord> cords = {})
+      : layers_(std::move(layers)), cords_(std::move(cords)) {}
 
   const std::vector<Layer>& layers() const { return layers_; }
+  const std::vector<Cord>& cords() const { return cords_; }
+
+  /// The stiffness of the cords on the outer line of a radial row [N/m]; 0 if there is none.
+  double cords_on(const PolarGrid<dim>& grid, int row) const {
+    double stiffness = 0;
+    for (const Cord& cord : cords_)
+      if (grid.nearest_line(cord.radius).line == row + 1) stiffness += cord.stiffness;
+    return stiffness;
+  }
 
   /// The radii between layers [m].
   std::vector<double> interfaces() const {
@@ -60,12 +76,16 @@ class Materials {
     return layer_at(grid.middle_of_row(row)) != layer_at(grid.middle_of_row(row + 1));
   }
 
-  /// Whether all radii between layers are those of lines of a grid, up to a millionth of a cell.
+  /// Whether all radii between layers and those of cords are those of lines of a grid, up to a millionth of a
+  /// cell.
   bool fit(const PolarGrid<dim>& grid) const {
-    return std::all_of(layers_.begin(), layers_.end() - 1, [&](const Layer& layer) {
-      const auto [line, distance] = grid.nearest_line(layer.outer_radius);
+    const auto is_line = [&](double radius) {
+      const auto [line, distance] = grid.nearest_line(radius);
       return line > 0 && line < grid.cells[0] && std::abs(distance) < 1e-6 * grid.cell_size()[0];
-    });
+    };
+    return std::all_of(layers_.begin(), layers_.end() - 1,
+                       [&](const Layer& layer) { return is_line(layer.outer_radius); }) &&
+           std::all_of(cords_.begin(), cords_.end(), [&](const Cord& cord) { return is_line(cord.radius); });
   }
 
   /// The law at the tread, which meets the ground.
@@ -80,6 +100,7 @@ class Materials {
 
  private:
   std::vector<Layer> layers_;
+  std::vector<Cord> cords_ = {};
 };
 
 }  // namespace wheelwright

@@ -1,6 +1,7 @@
 #include "wheelwright/mechanics/elasticity/sector_stiffness.h"
 
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/mechanics/elasticity/cord.h"
 
 namespace wheelwright {
 namespace {
@@ -16,6 +17,11 @@ std::optional<IsotropicLaw<dim>> compressible_law(const MaterialLaw<dim>& law) {
   Material material = *law.isotropic();
   material.poissons_ratio = largest;
   return IsotropicLaw<dim>(material);
+}
+
+/// Adds a stiffness, which may be empty.
+void add(const Matrix& more, Matrix& sum) {
+  for (size_t i = 0; i < more.entries().size(); ++i) sum.data()[i] += more.data()[i];
 }
 
 }  // namespace
@@ -37,6 +43,9 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
     stiffness_.push_back(bulk(elements_.back(), law(radial), rule));
     fillings_.push_back(stiffness_.back());
     for (double& x : fillings_.back().entries()) x *= 1e-6;
+    const double cords = materials.cords_on(grid, radial);
+    cords_.push_back(cords > 0 ? wheelwright::cord_stiffness<dim>(elements_.back(), cords) : Matrix());
+    add(cords_.back(), stiffness_.back());
   }
   const double column_angle = grid.cell_size()[1];
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
@@ -77,7 +86,9 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
       pattern.couple(nodes);
       sector.ghosts.push_back({std::move(nodes), &stiffness});
     };
-    if (face.axis == 0 && table.materials().is_interface(grid, radial)) {
+    const bool derivatives_jump =
+        table.materials().is_interface(grid, radial) || !table.cord_stiffness(radial).entries().empty();
+    if (face.axis == 0 && derivatives_jump) {
       for (const int cell : {face.minus, face.plus})
         if (domain.kinds[cell] == CellKind::cut)
           add(space.cell_nodes(cell), table.filling(grid.cell_position(cell)[0]));
@@ -108,6 +119,7 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
     const CutCell<dim>& cut = domain.cut[i];
     const int radial = grid.cell_position(cut.cell)[0];
     cut_stiffness[i] = table.bulk_stiffness(table.element(radial), table.law(radial), cut.material);
+    add(table.cord_stiffness(radial), cut_stiffness[i]);
   });
   for (size_t i = 0; i < domain.cut.size(); ++i) matrix.add(cell_nodes[domain.cut[i].cell], cut_stiffness[i]);
   for (const auto& ghost : sector.ghosts) matrix.add(ghost.nodes, *ghost.stiffness);

@@ -38,7 +38,10 @@ class ElementTable {
   }
 
   const ElasticElement<dim>& element(int radial) const { return elements_[radial]; }
+  /// Of a cell full of material, with the cords on its outer face.
   const Matrix& full_cell_stiffness(int radial) const { return stiffness_[radial]; }
+  /// Of the cords on the outer face of the cells of a row; empty if there are none.
+  const Matrix& cord_stiffness(int radial) const { return cords_[radial]; }
   /// The ghost penalty of a face on the dofs (minus cell, plus cell); `radial` is the row of the minus cell.
   const Matrix& face_ghost(int radial, int axis) const { return ghosts_[dim * radial + axis]; }
   /// The same of a face between two sectors, which lies in this radial row.
@@ -60,7 +63,7 @@ class ElementTable {
   SideFaces sides_;
   DilatationKind dilatation_;
   std::vector<ElasticElement<dim>> elements_;
-  std::vector<Matrix> stiffness_;
+  std::vector<Matrix> stiffness_, cords_;
   std::vector<Matrix> ghosts_, ghosts_at_middle_, fillings_;
   std::vector<GhostHalves> divided_ghosts_;
 };

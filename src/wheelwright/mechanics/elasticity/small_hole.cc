@@ -1,5 +1,9 @@
 #include "wheelwright/mechanics/elasticity/small_hole.h"
 
+#include <cmath>
+
+#include "wheelwright/mechanics/elasticity/orthotropic_law.h"
+
 namespace wheelwright {
 namespace {
 
@@ -34,6 +38,15 @@ Voigt<dim> strain_of_hole(const Material& material, const Voigt<dim>& distant) {
   for (int k = 0; k < n_strains<dim>; ++k)
     strain[k] = k < dim ? dilatation * mean + deviator * (distant[k] - mean) : deviator * distant[k];
   return strain;
+}
+
+Voigt<2> strain_of_hole(const OrthotropicMaterial& material, const Voigt<2>& distant) {
+  const auto [rr, tt, rt, shear] = material.plane_compliance();
+  const double x = 2 * std::sqrt(rr * tt) + 2 * rt + shear, coupled = std::sqrt(rr * tt);
+  const Voigt<2> far = stress<2>(OrthotropicLaw<2>(material), distant);
+  return {(rr + std::sqrt(rr * x)) * far[0] - coupled * far[1],
+          (tt + std::sqrt(tt * x)) * far[1] - coupled * far[0],
+          (x + (std::sqrt(rr) + std::sqrt(tt)) * std::sqrt(x)) * far[2]};
 }
 
 Voigt<2> strain_around_hole(const Material& material, const Voigt<2>& distant, const Vec<2>& place) {

@@ -133,7 +133,18 @@ std::array<int, 2> plane_of_rotation(int rotation) {
   return {(rotation + 1) % 3, (rotation + 2) % 3};
 }
 
-/// Adds the rotations to a map, from `row` of each point on.
+/// Turns the vectors whose components along two axes stand in a row and the next one, as seen in axes of that
+/// azimuth.
+void turn_back(double azimuth, int row, Matrix& map) {
+  const AxleRotation rotation(azimuth);
+  for (int j = 0; j < map.columns(); ++j) {
+    double* vector = map.column(j) + row;
+    const Vec<2> seen = rotation.back(Vec<2>{vector[0], vector[1]});
+    std::copy(seen.begin(), seen.end(), vector);
+  }
+}
+
+/// Adds the rotations to a map, from `row` of each point on, in the axes of the strains.
 template <int dim>
 void add_rotations(const ElasticElement<dim>& element, std::span<const Vec<dim>> points, int n_rows, int row,
                    Matrix& map) {
@@ -145,6 +156,9 @@ void add_rotations(const ElasticElement<dim>& element, std::span<const Vec<dim>>
         map(n_rows * static_cast<int>(q) + row + r, j) =
             0.5 * (gradient[dim * to + from][j] - gradient[dim * from + to][j]);
     }
+    if (dim == 3 && element.has_polar_strains())
+      turn_back(element.azimuth_of_strains(element.at(points[q]).position),
+                n_rows * static_cast<int>(q) + row, map);
   }
 }
 

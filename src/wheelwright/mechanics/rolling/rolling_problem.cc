@@ -43,14 +43,34 @@ std::optional<Failure> unsupported_material(const RollingModel<dim>& model) {
     if (model.materials.is_interface(model.grid, row))
       return Failure{FailureReason::unsupported_model,
                      "materials meet in the rows that are condensed at the tread"};
+  for (const auto& cord : model.materials.cords())
+    if (model.grid.nearest_line(cord.radius).line > rows - model.tread.rows)
+      return Failure{FailureReason::unsupported_model,
+                     "a cord lies in the rows that are condensed at the tread"};
   for (int row = 0; row < model.grid.cells[0]; ++row) {
     const MaterialLaw<dim>& law = model.materials.in_row(model.grid, row);
-    if (dim == 3 && law.isotropic() && law.isotropic()->plane == Plane::stress)
+    const Material* isotropic = law.isotropic();
+    const OrthotropicMaterial* orthotropic = law.orthotropic();
+    if (dim == 3 && ((isotropic && isotropic->plane == Plane::stress) ||
+                     (orthotropic && orthotropic->plane == Plane::stress)))
       return Failure{FailureReason::unsupported_model, "plane stress is for two dimensions only"};
     if (const auto fault = fault_of_linear_law<dim>(law))
       return Failure{FailureReason::unsupported_model,
                      "the material law does not suit linear elasticity: " + *fault};
+    if (orthotropic && orthotropic->locks())
+      return Failure{FailureReason::unsupported_model,
+                     "an orthotropic material is so nearly incompressible that the elements lock"};
   }
+  return {};
+}
+
+/// Cords lie in material: their nodes are those of the cells below them.
+template <int dim>
+std::optional<Failure> cord_in_a_hole(const Materials<dim>& materials, const CutDomain<dim>& domain) {
+  if (materials.cords().empty()) return {};
+  for (int cell = 0; cell < domain.grid.n_cells(); ++cell)
+    if (!domain.active(cell) && materials.cords_on(domain.grid, domain.grid.cell_position(cell)[0]) > 0)
+      return Failure{FailureReason::protected_band, "a hole reaches a cord"};
   return {};
 }
 
@@ -124,6 +144,7 @@ Expected<std::shared_ptr<const FactoredShape<dim>>> RollingProblem<dim>::factor(
                              : cut_domain(shape.psi, model_.points_in_cut_cells());
   if (!domain) return domain.failure();
   if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
+  if (auto failure = cord_in_a_hole(model_.materials, *domain)) return *failure;
   phases.push_back({phase::cut, watch.lap()});
   auto sector = sector_stiffness(*domain, *elements_, core_rows());
   phases.push_back({phase::assembly, watch.lap()});

@@ -56,7 +56,7 @@ class Derivatives {
       for (int mode = 0; mode < u.rows(); ++mode) {
         Voigt<dim> strain = voigt<dim>(strain_p, mode);
         for (int k = 0; k < n_strains<dim>; ++k) strain[k] += 0.5 * strain_w(k, mode);
-        sum -= work_on_small_hole<dim>(*law.isotropic(), voigt<dim>(strain_u, mode), strain);
+        sum -= work_on_small_hole<dim>(law, voigt<dim>(strain_u, mode), strain);
       }
       derivatives.push_back(sum + of_integrals(functions_[f].integrals, law, strain_u, place[0]));
     }
@@ -105,11 +105,21 @@ std::optional<Failure> unsupported(const RollingModel<dim>& model,
   if (model.distributed.hole_pressure != 0)
     return Failure{FailureReason::unsupported_model,
                    "the derivative to small holes is not known under a pressure in the holes"};
-  for (int row = 0; row < model.grid.cells[0]; ++row)
-    if (!model.materials.in_row(model.grid, row).isotropic())
+  const bool has_integrals =
+      std::ranges::any_of(functions, [](const auto& f) { return !f.integrals.empty(); });
+  for (int row = 0; row < model.grid.cells[0]; ++row) {
+    const MaterialLaw<dim>& law = model.materials.in_row(model.grid, row);
+    if (!has_small_holes(law))
       return Failure{FailureReason::unsupported_model,
-                     "the derivative to small holes is known for isotropic materials only"};
-  if (dim == 3 && std::ranges::any_of(functions, [](const auto& f) { return !f.integrals.empty(); }))
+                     dim == 2 ? "the derivative to small holes is known for isotropic and polar orthotropic "
+                                "materials only"
+                              : "the derivative to small holes in three dimensions is known for isotropic "
+                                "materials only"};
+    if (has_integrals && !law.isotropic())
+      return Failure{FailureReason::unsupported_model,
+                     "the derivative of stresses to small holes is known for isotropic materials only"};
+  }
+  if (dim == 3 && has_integrals)
     return Failure{FailureReason::unsupported_model,
                    "the derivative of stresses to small holes is not known in three dimensions"};
   return {};

@@ -14,7 +14,7 @@ namespace wheelwright {
 /// back. If all positions were solved, the load cases are those of a whole turn of the wheel.
 template <int dim>
 struct StrainsAtPoint {
-  StrainRows<dim> strains;  ///< [component][load case]
+  StrainRows<dim> strains;  ///< [component][load case], in the axes that the law wants
   int n_sectors;
   const MaterialLaw<dim>& law;
 

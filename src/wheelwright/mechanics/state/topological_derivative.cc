@@ -19,8 +19,13 @@ double product(const std::array<double, n>& stress, const std::array<double, n>&
 }  // namespace
 
 template <int dim>
-double work_on_small_hole(const Material& material, const Voigt<dim>& strain_u, const Voigt<dim>& strain_p) {
-  return product(stress<dim>(material, strain_p), strain_of_hole<dim>(material, strain_u));
+double work_on_small_hole(const MaterialLaw<dim>& law, const Voigt<dim>& strain_u,
+                          const Voigt<dim>& strain_p) {
+  const Voigt<dim> sigma = stress<dim>(law, strain_p);
+  if constexpr (dim == 2)
+    if (const OrthotropicMaterial* material = law.orthotropic())
+      return product(sigma, strain_of_hole(*material, strain_u));
+  return product(sigma, strain_of_hole<dim>(*law.isotropic(), strain_u));
 }
 
 namespace {

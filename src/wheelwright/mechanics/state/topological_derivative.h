@@ -12,9 +12,16 @@ struct MaterialPoint {
 };
 
 /// sigma(p) : A eps(u): the work of the adjoint stress on the strain of a small round hole without traction
-/// (strain_of_hole()), per its area, or volume when dim = 3.
+/// (strain_of_hole()), per its area, or volume when dim = 3. has_small_holes() must be true.
 template <int dim>
-double work_on_small_hole(const Material& material, const Voigt<dim>& strain_u, const Voigt<dim>& strain_p);
+double work_on_small_hole(const MaterialLaw<dim>& law, const Voigt<dim>& strain_u,
+                          const Voigt<dim>& strain_p);
+
+/// Whether strain_of_hole() is known for a law.
+template <int dim>
+bool has_small_holes(const MaterialLaw<dim>& law) {
+  return law.isotropic() || (dim == 2 && law.orthotropic());
+}
 
 /// The change of the sum over load cases j of factor_j int M_j dx by a small round traction-free hole, in
 /// addition to the contribution of the adjoint problem, per area of the hole: the integral of M(eps + e) -

@@ -40,15 +40,21 @@ RingField vertical_field(const RingField& displacement, double ground_azimuth) {
 
 namespace {
 
+/// A node of a cell in the unit cell.
+template <int dim>
+Vec<dim> place_of_node(int degree, int node) {
+  Vec<dim> xi;
+  for (int d = 0; d < dim; ++d) xi[d] = double(local_node_position<dim>(degree, node)[d]) / degree;
+  return xi;
+}
+
 /// Strains at the nodes of a cell of this row as a linear map of its dofs: n_strains rows a node.
 template <int dim>
 Matrix strains_at_nodes(const ElasticElement<dim>& element) {
   const int degree = element.degree();
   Matrix map(n_strains<dim> * element.n_nodes(), element.n_dofs());
   for (int a = 0; a < element.n_nodes(); ++a) {
-    Vec<dim> xi;
-    for (int d = 0; d < dim; ++d) xi[d] = double(local_node_position<dim>(degree, a)[d]) / degree;
-    const auto point = element.at(xi);
+    const auto point = element.at(place_of_node<dim>(degree, a));
     for (int k = 0; k < n_strains<dim>; ++k)
       for (int j = 0; j < element.n_dofs(); ++j) map(n_strains<dim> * a + k, j) = point.strain[k][j];
   }
@@ -83,6 +89,23 @@ namespace {
 struct Direction {
   double cosine, sine;
 };
+
+/// The azimuth that is the sum of both.
+Direction sum(const Direction& a, const Direction& b) {
+  return {a.cosine * b.cosine - a.sine * b.sine, a.sine * b.cosine + a.cosine * b.sine};
+}
+
+/// The first axes of the strains at the nodes of a cell, in its frame.
+template <int dim>
+std::vector<Direction> axes_at_nodes(const ElasticElement<dim>& element) {
+  std::vector<Direction> axes;
+  for (int a = 0; a < element.n_nodes(); ++a) {
+    const double azimuth =
+        element.azimuth_of_strains(element.with_own_strain(place_of_node<dim>(element.degree(), a)).position);
+    axes.push_back({std::cos(azimuth), std::sin(azimuth)});
+  }
+  return axes;
+}
 
 /// A stress, given in a frame whose first axis points in this direction, as components in the body frame.
 std::array<double, 4> in_body_frame(const Voigt<2>& s, const Direction& axis, double axial_stress) {
@@ -184,15 +207,16 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
       for (int a = 0; a < element.n_nodes(); ++a)
         std::copy_n(&polar[dim * cells[c].nodes[a]], dim, dofs.column(static_cast<int>(c)) + dim * a);
     const Matrix strains = product(strains_at_nodes(element), Op::none, dofs, Op::none);
+    const std::vector<Direction> axes = axes_at_nodes(element);
     for (size_t c = 0; c < cells.size(); ++c) {
       const double* strain = strains.column(static_cast<int>(c));
-      for (const size_t node : std::span(cells[c].nodes).first(element.n_nodes())) {
+      for (int a = 0; a < element.n_nodes(); ++a, strain += n_strains<dim>) {
         Voigt<dim> at_point;
         std::copy_n(strain, n_strains<dim>, at_point.begin());
-        const auto at_node = in_body_frame(stress<dim>(law, at_point), of_column[cells[c].column],
-                                           axial_stress<dim>(law, at_point));
-        of_row.add(node, at_node);
-        strain += n_strains<dim>;
+        const auto at_node =
+            in_body_frame(stress<dim>(law, at_point), sum(of_column[cells[c].column], axes[a]),
+                          axial_stress<dim>(law, at_point));
+        of_row.add(cells[c].nodes[a], at_node);
       }
     }
   }

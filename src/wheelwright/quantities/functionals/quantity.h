@@ -144,6 +144,7 @@ struct QuantityRow {
   std::vector<Input> varies_with = {};  ///< without which it is the same for every shape
   bool compares_with_mean = false;      ///< with the mean contact stress: a uniformity
   bool observes_annulus = false;        ///< the tractions in the annulus at the tread
+  bool integrates_stresses = false;     ///< over the material
   bool is_amount_of_material = false;   ///< so that a run that optimizes it does not hold the volume
   bool is_maximum = false;        ///< over points or positions: it has the gradient of a smooth approximation
   bool is_larger_better = false;  ///< where designs are ranked by it

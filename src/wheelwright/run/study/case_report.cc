@@ -42,21 +42,31 @@ std::string load_report(const Case& c) {
               fmt::format("{} per sector, {} around the wheel", c.load.positions, total_load_positions(c)));
 }
 
+std::string constants_text(const PlacedMaterial& placed) {
+  if (const Material* m = placed.isotropic())
+    return fmt::format("E {:.6g} MPa, nu {:.6g}", m->youngs_modulus / 1e6, m->poissons_ratio);
+  const OrthotropicMaterial& m = *placed.orthotropic();
+  return fmt::format("E radial {:.6g}, azimuthal {:.6g}, axial {:.6g} MPa", m.modulus_r / 1e6,
+                     m.modulus_t / 1e6, m.modulus_z / 1e6);
+}
+
 /// One line a layer, from the rim to the tread.
 std::string layers_report(const Case& c) {
   std::string report;
-  for (const auto& [inner, outer, material, layer] : placed_materials(c))
+  for (const PlacedMaterial& placed : placed_materials(c)) {
+    const auto& layer = placed.layer;
     report += line(layer ? name_of_layer(c, *layer) : "material",
-                   fmt::format("radius {:.6g} to {:.6g} mm, E {:.6g} MPa, nu {:.6g}, {}{}", inner * 1e3,
-                               outer * 1e3, material.youngs_modulus / 1e6, material.poissons_ratio,
-                               material.density ? fmt::format("{:.6g} kg/m^3", *material.density)
+                   fmt::format("radius {:.6g} to {:.6g} mm, {}, {}{}", placed.inner_radius * 1e3,
+                               placed.outer_radius * 1e3, constants_text(placed),
+                               placed.density() ? fmt::format("{:.6g} kg/m^3", *placed.density())
                                                 : "no density, so no mass is shown",
                                layer && c.layers[*layer].holes == LayerHoles::none ? ", no holes" : ""));
+  }
   return report;
 }
 
 std::string material_report(const Case& c) {
-  if (!c.layers.empty())
+  if (!c.layers.empty() || tread_material(c).orthotropic())
     return layers_report(c) +
            line("E* of the contact", fmt::format("about {:.3g} MPa", effective_contact_modulus(c) / 1e6));
   return line("lambda", fmt::format("{:.6g} MPa", c.material.lambda() / 1e6)) +
@@ -123,13 +133,10 @@ std::vector<std::string> doubtful_lengths(const Case& c) {
 /// Moduli given in megapascals yield a wheel of jelly.
 std::vector<std::string> doubtful_modulus(const Case& c) {
   std::vector<std::string> result;
-  for (const auto& [inner, outer, material, layer] : placed_materials(c))
-    if (const double modulus = material.youngs_modulus; may_be_in_megapascals(modulus)) {
-      const CaseKey key =
-          layer ? key_of(&MaterialLayer::youngs_modulus, *layer) : key_of(&Material::youngs_modulus);
-      result.push_back(
-          fmt::format("{} = {} Pa: {}", key.path(), number_text(modulus), question_of_megapascals(modulus)));
-    }
+  for (const PlacedMaterial& placed : placed_materials(c))
+    if (const double modulus = placed.youngs_modulus(); may_be_in_megapascals(modulus))
+      result.push_back(fmt::format("{} = {} Pa: {}", placed.youngs_modulus_key().path(), number_text(modulus),
+                                   question_of_megapascals(modulus)));
   return result;
 }
 
@@ -256,13 +263,13 @@ std::vector<std::string> warnings(const Case& c) {
         "ghost_penalty.kind = \"paper\" does not keep the stiffness well conditioned for degree 2: some "
         "shapes will "
         "fail; \"full\" is safe");
-  for (const auto& [inner, outer, material, layer] : placed_materials(c))
-    if (c.grid.degree == 1 && material.plane_strain_equivalent().poissons_ratio > 0.4)
+  for (const PlacedMaterial& placed : placed_materials(c))
+    if (const Material* material = placed.isotropic();
+        c.grid.degree == 1 && material && material->plane_strain_equivalent().poissons_ratio > 0.4)
       result.push_back(fmt::format(
           "grid.degree = 1 is too stiff for {} = {}: at 0.48 and 28 x 384 cells "
           "travel and energy are 5 % too small and pressures useless; grid.degree = 2 is accurate",
-          (layer ? key_of(&MaterialLayer::poissons_ratio, *layer) : key_of(&Material::poissons_ratio)).path(),
-          material.poissons_ratio));
+          placed.poissons_ratio_key().path(), material->poissons_ratio));
   if (c.contact.method == ContactMethod::nitsche && c.contact.gamma_0 > largest_smooth_gamma_0)
     result.push_back(
         fmt::format("contact.gamma_0 = {} is so large that pressures may oscillate by a third; "
