@@ -52,7 +52,7 @@ void check_solid_wheel(const SingleLoad& single, Conflicts& found) {
                      "a leaning wheel supports only forces on its rim",
                      "omit torque, body_force, hole_pressure and speed, or use camber = 0"});
   constexpr double largest = 0.4;
-  for (const auto& [inner, outer, material, layer] : placed_materials(c))
+  for (const auto& [name, inner, outer, material, layer] : placed_materials(c))
     if (c.grid.degree == 1 && material.poissons_ratio > largest && !material.nearly_incompressible())
       found.push_back(
           {{key_of(&Grid::degree),

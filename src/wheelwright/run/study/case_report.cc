@@ -42,9 +42,9 @@ std::string load_report(const Case& c) {
 /// One line a layer, from the rim to the tread.
 std::string layers_report(const Case& c) {
   std::string report;
-  for (const auto& [inner, outer, material, layer] : placed_materials(c))
-    report += line(layer ? name_of_layer(c, *layer) : "material",
-                   fmt::format("radius {:.6g} to {:.6g} mm, E {:.6g} MPa, nu {:.6g}, {}{}", inner * 1e3,
+  for (const auto& [name, inner, outer, material, layer] : placed_materials(c))
+    report +=
+        line(name, fmt::format("radius {:.6g} to {:.6g} mm, E {:.6g} MPa, nu {:.6g}, {}{}", inner * 1e3,
                                outer * 1e3, material.youngs_modulus / 1e6, material.poissons_ratio,
                                material.density ? fmt::format("{:.6g} kg/m^3", *material.density)
                                                 : "no density, so no mass is shown",
@@ -117,7 +117,7 @@ std::vector<std::string> doubtful_lengths(const Case& c) {
 /// Moduli given in megapascals yield a wheel of jelly.
 std::vector<std::string> doubtful_modulus(const Case& c) {
   std::vector<std::string> result;
-  for (const auto& [inner, outer, material, layer] : placed_materials(c))
+  for (const auto& [name, inner, outer, material, layer] : placed_materials(c))
     if (const double modulus = material.youngs_modulus; may_be_in_megapascals(modulus)) {
       const CaseKey key =
           layer ? key_of(&MaterialLayer::youngs_modulus, *layer) : key_of(&Material::youngs_modulus);
@@ -158,14 +158,14 @@ std::vector<std::string> holes_in_solid_layers(const Case& c) {
   for (MaterialLayer& layer : open.layers) layer.holes = LayerHoles::allowed;
   const LevelSet<2> shape = initial_shape<2>(open);
   const PolarGrid<2>& grid = shape.lattice.grid();
-  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
+  for (const auto& [name, inner, outer, material, layer] : placed_materials(c)) {
     if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
     const auto part = in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line);
     if (material_measure(part) < (1 - 1e-3) * sector_measure<2>(part.lattice.grid()))
       result.push_back(
           fmt::format("holes reach into {}, which has holes = \"none\": there they stay material, and "
                       "become smaller, vanish or are divided",
-                      name_of_layer(c, *layer)));
+                      name));
   }
   return result;
 }
@@ -173,7 +173,7 @@ std::vector<std::string> holes_in_solid_layers(const Case& c) {
 std::string bounds_report(const Case& c) {
   std::string report;
   for (const Constraint& bound : c.constraints) {
-    std::string text(name(bound.quantity));
+    std::string text = name(quantity_of(c, bound));
     const char* separator = " ";
     for (const auto& [words, value] :
          {std::pair{"at least", bound.at_least}, {"at most", bound.at_most}, {"equal to", bound.equals}})
@@ -241,7 +241,7 @@ std::vector<std::string> warnings(const Case& c) {
         "ghost_penalty.kind = \"paper\" does not keep the stiffness well conditioned for degree 2: some "
         "shapes will "
         "fail; \"full\" is safe");
-  for (const auto& [inner, outer, material, layer] : placed_materials(c))
+  for (const auto& [name, inner, outer, material, layer] : placed_materials(c))
     if (c.grid.degree == 1 && material.plane_strain_equivalent().poissons_ratio > 0.4)
       result.push_back(fmt::format(
           "grid.degree = 1 is too stiff for {} = {}: at 0.48 and 28 x 384 cells "
