@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double square(const Vec<2>& x) { return dot<2>(x, x); }
+double squared_norm(const Vec<2>& x) { return dot<2>(x, x); }
 
 double positive_azimuth(const Vec<2>& x) {
   const double azimuth = std::atan2(x[1], x[0]);
@@ -93,7 +93,7 @@ void add_breaks(const Sextic& a, double low, double high, int depth, std::vector
 /// Parameters within the curve, ascending, between which it crosses the circle at most once.
 std::vector<double> breaks_of(const Line& line, double) {
   const Vec<2> along = line.end - line.start;
-  return {-dot<2>(line.start, along) / square(along)};  // the point nearest to the axle
+  return {-dot<2>(line.start, along) / squared_norm(along)};  // the point nearest to the axle
 }
 
 std::vector<double> breaks_of(const Arc& arc, double) {
@@ -117,11 +117,12 @@ std::vector<double> breaks_of(const Spline& spline, double radius) {
   return breaks;
 }
 
-bool is_outside(const Vec<2>& x, double radius) { return square(x) >= radius * radius; }
+bool is_outside(const Vec<2>& x, double radius) { return squared_norm(x) >= radius * radius; }
 
 /// The parameters at which a curve crosses a circle; whether its ends are outside is given, so that
 /// neighbouring curves agree about the point between them.
-std::vector<double> crossings(const Curve& curve, double radius, bool starts_outside, bool ends_outside) {
+std::vector<double> circle_crossings(const Curve& curve, double radius, bool starts_outside,
+                                     bool ends_outside) {
   auto breaks = std::visit([&](const auto& c) { return breaks_of(c, radius); }, curve);
   std::erase_if(breaks, [](double s) { return !(s > 0 && s < 1); });
   breaks.push_back(1);
@@ -154,7 +155,7 @@ struct Crossing {
 };
 
 /// A part of the boundary of a layer, from one crossing to another, by their indices.
-struct Piece {
+struct EdgePiece {
   int begin, end;
   std::vector<Curve> curves;
 };
@@ -185,7 +186,7 @@ class Cutter {
         const bool starts = is_outside(start_of(curves[k]), radii_[circle]),
                    ends = is_outside(start_of(curves[(k + 1) % n]), radii_[circle]);
         bool is_outward = !starts;
-        for (const double s : crossings(curves[k], radii_[circle], starts, ends)) {
+        for (const double s : circle_crossings(curves[k], radii_[circle], starts, ends)) {
           crossings_.push_back({loop, k, s, circle, is_outward, positive_azimuth(at(curves[k], s).position)});
           is_outward = !is_outward;
         }
@@ -287,7 +288,7 @@ class Cutter {
 
   /// Joins the pieces of a layer to loops.
   Outline joined(int layer) {
-    std::vector<Piece>& pieces = pieces_[layer];
+    std::vector<EdgePiece>& pieces = pieces_[layer];
     std::vector<int> piece_from(crossings_.size(), -1);
     for (int k = 0; k < std::ssize(pieces); ++k) piece_from[pieces[k].begin] = k;
     Outline outline{std::move(whole_[layer])};
@@ -309,8 +310,8 @@ class Cutter {
   const Outline& outline_;
   const std::vector<double>& radii_;
   std::vector<Crossing> crossings_;
-  std::vector<std::vector<Loop>> whole_;    ///< by layer: loops that cross no circle
-  std::vector<std::vector<Piece>> pieces_;  ///< by layer
+  std::vector<std::vector<Loop>> whole_;        ///< by layer: loops that cross no circle
+  std::vector<std::vector<EdgePiece>> pieces_;  ///< by layer
 };
 
 }  // namespace

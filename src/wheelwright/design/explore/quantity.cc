@@ -26,7 +26,7 @@ constexpr std::array names_of_ranked{"stiffness",      "strain_energy",   "volum
                                      "largest_strain", "roughness"};
 
 /// Whether a case gives the densities that a quantity needs.
-bool is_known(const Case& c, const Quantity& quantity) {
+bool has_what_it_needs(const Case& c, const Quantity& quantity) {
   return std::ranges::find(quantity->needs, Input::density) == quantity->needs.end() ||
          has_density(c, quantity->part);
 }
@@ -45,7 +45,7 @@ const std::vector<RankedQuantity>& ranked_quantities() {
 std::vector<RankedQuantity> ranked_quantities(const Case& c) {
   std::vector<RankedQuantity> quantities;
   const auto add = [&](const Quantity& quantity) {
-    if (is_known(c, quantity)) quantities.push_back(ranked(quantity));
+    if (has_what_it_needs(c, quantity)) quantities.push_back(ranked(quantity));
   };
   for (const char* name : names_of_ranked) add(built_in(name));
   for (const std::string& layer : names_of_layers(c))

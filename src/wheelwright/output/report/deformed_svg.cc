@@ -111,7 +111,7 @@ std::string coloured_paths(const PictureScalar& scalar, const ColourScale& scale
 }
 
 /// psi in a column of a sector, at the inner edge of a row and a part of the column's angle.
-double value_at(const LevelSet<2>& psi, int row, int column, double part) {
+double value_on_line(const LevelSet<2>& psi, int row, int column, double part) {
   const auto at_nodes = psi.cell_values(psi.lattice.grid().cell_index({row, column}));
   const ShapeFunctions<2> shape(psi.lattice.degree(), {0, part});
   double value = 0;
@@ -131,7 +131,7 @@ std::string layer_path(const LevelSet<2>& psi, const DeformedMaterial& material,
     for (int k = 0; k <= parts * grid.columns() * grid.n_sectors; ++k) {
       const int column = k / parts;
       const double part = static_cast<double>(k % parts) / parts;
-      if (value_at(psi, row, column % grid.columns(), part) < 0) {
+      if (value_on_line(psi, row, column % grid.columns(), part) < 0) {
         const double azimuth = (column + part) * grid.cell_size()[1];
         const PicturePoint p = picture_point(material.drawn(cartesian<2>({radius, azimuth})), view);
         path += fmt::format("{}{} {}", is_drawing ? 'L' : 'M', p[0], p[1]);
