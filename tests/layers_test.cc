@@ -11,6 +11,8 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/lu_factor.h"
+#include "wheelwright/output/page/sector_mesh.h"
+#include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
 #include "wheelwright/quantities/analysis/layer_results.h"
@@ -22,6 +24,7 @@
 #include "wheelwright/run/study/layer_shapes.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/components.h"
 
 namespace wheelwright {
 namespace {
@@ -412,6 +415,69 @@ TEST(Layers, WithoutHolesStaySolid) {
   }
 }
 
+/// Holes in a layer without holes at the rim or the tread are not lost on the grid, as between them.
+TEST(Layers, WithoutHolesAtTheRimDoNotBlameTheGrid) {
+  const auto result = layered_case(
+      "[[material.layer]]\nouter_radius = 0.07\nyoungs_modulus = 9e8\npoissons_ratio = 0.4\nholes = "
+      "\"none\"\n",
+      "[[holes.ring]]\ncount = 8\ncenter_radius = 0.0625\nradius = 0.005\n[[holes.ring]]\ncount = 8\n"
+      "center_radius = 0.08\nradius = 0.006\n");
+  ASSERT_TRUE(result.value) << result.problems.front().text();
+  EXPECT_TRUE(lost_on_the_grid<2>(*result.value).empty());
+  EXPECT_EQ(components(initial_shape<2>(*result.value)).all.size(), 2u);  // the material and a hole
+}
+
+double length(const std::vector<Vec<2>>& points, const std::vector<std::uint32_t>& pairs) {
+  double sum = 0;
+  for (std::size_t k = 0; k < pairs.size(); k += 2) sum += distance(points[pairs[k]], points[pairs[k + 1]]);
+  return sum;
+}
+
+/// Pictures draw the edges of a mesh on the circle between two layers, as far as there is material.
+TEST(Layers, MeetAtTheEdgesThatPicturesDraw) {
+  auto model = paper_model(14, 192);
+  model.materials = layered<2>({{0.27, {200e6, 0.3}}, {0.34, {10e6, 0.45}}});
+  const SectorMesh whole = sector_mesh(full(model.grid), model);
+  EXPECT_NEAR(length(whole.points, whole.layer_edges) * model.grid.n_sectors / (2 * pi * 0.27), 1, 1e-3);
+  const SectorMesh mesh = sector_mesh(generic_hole(model.grid), model);
+  EXPECT_GT(length(mesh.points, mesh.layer_edges), 0);
+  EXPECT_LT(length(mesh.points, mesh.layer_edges), 0.9 * length(whole.points, whole.layer_edges));
+  for (const std::uint32_t end : mesh.layer_edges) {
+    EXPECT_NEAR(norm(mesh.points[end]), 0.27, 1e-5);
+    EXPECT_EQ(mesh.rows[end], 6);
+  }
+}
+
+/// A surface has separate vertices for the layers, so that fields jump, and lines around both side faces.
+TEST(Layers, HaveSeparateVerticesOnSurfaces) {
+  const PolarGrid<3> grid{0.20, 0.34, 0.12, 8, {14, 12, 4}};
+  const LevelSet<3> psi = [&] {
+    LevelSet<3> ring{Lattice<3>(grid, 1), {}};
+    ring.values.assign(ring.lattice.n_nodes(), -0.01);
+    return ring;
+  }();
+  const SurfaceMesh mesh = material_surface(psi, 2, 2);
+  const LayeredSurface layered = layered_surface(mesh, grid, {0.27});
+  EXPECT_EQ(layered.triangles.size(), mesh.triangles.size());
+  EXPECT_NEAR(enclosed_volume(layered), enclosed_volume(mesh), 1e-15);
+  EXPECT_EQ(layered.points.size(), mesh.points.size() + 8 * 2 * 24);  // the vertices on two circles
+  double sum = 0;
+  for (const auto& [a, b] : layered.layer_edges) {
+    sum += distance(layered.points[a], layered.points[b]);
+    EXPECT_NEAR(std::hypot(layered.points[a][0], layered.points[a][1]), 0.27, 1e-4);
+  }
+  EXPECT_NEAR(sum / (2 * 2 * pi * 0.27), 1, 1e-3);
+  for (const auto& triangle : layered.triangles) {
+    int inside = 0, outside = 0;
+    for (const int vertex : triangle) {
+      const CellPoint& place = layered.places[vertex % layered.sector_points()];
+      inside += place.cell[0] < 7;
+      outside += place.cell[0] >= 7;
+    }
+    EXPECT_TRUE(inside == 0 || outside == 0);
+  }
+}
+
 /// The parts of a shape make up the whole, also where a hole crosses from one to another.
 TEST(Layers, AreShapesOfTheirOwn) {
   const auto result = layered_case(
@@ -493,6 +559,10 @@ TEST(Layers, ThatCannotBeAreRefusedByKey) {
   refuses("[[material.layer]]\ninner_radius = 0.09\nyoungs_modulus = 3e6\npoissons_ratio = 0.499995\n",
           "material.layer[1].poissons_ratio");
   refuses(layer + "inner_radius = 0.09\n[objective]\nminimize = \"mass\"\n", "objective.minimize");
+  refuses(
+      "[material]\nyoungs_modulus = 1e2\n[[material.layer]]\nname = \"hub\"\nouter_radius = 0.06\n"
+      "youngs_modulus = 1e12\npoissons_ratio = 0.3\n",
+      "material.layer[1].youngs_modulus");
 }
 
 }  // namespace
