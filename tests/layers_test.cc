@@ -8,16 +8,23 @@
 #include <numbers>
 
 #include "tests/support.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/lu_factor.h"
+#include "wheelwright/output/page/sector_mesh.h"
+#include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
+#include "wheelwright/quantities/analysis/layer_results.h"
 #include "wheelwright/quantities/functionals/mass.h"
+#include "wheelwright/quantities/functionals/peak_von_mises.h"
+#include "wheelwright/quantities/functionals/quantities.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
 #include "wheelwright/run/study/case_report.h"
 #include "wheelwright/run/study/layer_shapes.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/components.h"
 
 namespace wheelwright {
 namespace {
@@ -191,6 +198,66 @@ TEST(Layers, ShapeGradientPassesTheTaylorTest) {
     }
 }
 
+/// The quantities of a layer, where holes cross from one to another. In the norm of the peak the correction
+/// is held, as the gradient takes it.
+TEST(Layers, QuantitiesOfOneLayerPassTheTaylorTest) {
+  for (const double contrast : {0.02, 50.0}) {
+    auto model = paper_model(14, 192);
+    model.n_positions = 3;
+    model.contact.friction = 0.3;
+    model.horizontal_force = 0.1 * model.load;
+    model.materials = layered<2>(
+        {{0.27, {200e6 * contrast, 0.4, Plane::strain, 8000}}, {0.34, {200e6, 0.3, Plane::strain, 1100}}});
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    for (const PartOfRing& part : {PartOfRing{"core", 0.20, 0.27}, PartOfRing{"tyre", 0.27, 0.34}})
+      for (const WeightedSum<2>& terms :
+           {WeightedSum<2>{
+                {1e-6, std::make_shared<PeakVonMises<2>>(0, PeakNorm{.exponent = 8, .correction = 1}, part)}},
+            WeightedSum<2>{{1, std::make_shared<Mass<2>>(model.materials, part)}}}) {
+        SCOPED_TRACE(terms.front().functional->name());
+        const auto test = testing::generic_taylor_test(*problem, terms);
+        ASSERT_TRUE(test) << test.failure().detail;
+        for (const double order : test->orders) EXPECT_GT(order, 1.9) << contrast;
+      }
+  }
+}
+
+/// Peaks and masses of the layers: the larger is that of the ring, the sum is that of the ring, and a
+/// functional of one layer sees what its results say.
+TEST(Layers, HaveResultsOfTheirOwn) {
+  auto model = paper_model(14, 192);
+  model.n_positions = 3;
+  model.contact.friction = 0.3;
+  model.horizontal_force = 0.1 * model.load;
+  model.materials =
+      layered<2>({{0.27, {2e9, 0.3, Plane::strain, 8000}}, {0.34, {200e6, 0.4, Plane::strain, 1100}}});
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const LevelSet<2> psi = generic_hole(model.grid);
+  const auto state = solved(model, psi);
+  const auto layers = layer_results<2>(*problem, *state);
+  ASSERT_EQ(layers.size(), 2u);
+  EXPECT_EQ(std::max(layers[0].peak_von_mises, layers[1].peak_von_mises),
+            std::ranges::max(state->strain_peaks().von_mises));
+  EXPECT_EQ(std::max(layers[0].largest_strain, layers[1].largest_strain),
+            std::ranges::max(state->strain_peaks().principal));
+  EXPECT_LT(layers[0].peak_place[0], 0.27);
+  EXPECT_GT(layers[1].peak_place[0], 0.27);
+  const double mean = mean_density(model.materials, psi).value();
+  EXPECT_NEAR((*layers[0].mass + *layers[1].mass) / (mean * material_measure(psi) * model.grid.n_sectors), 1,
+              1e-12);
+  const PartOfRing parts[] = {{"core", 0.20, 0.27}, {"tyre", 0.27, 0.34}};
+  for (const int k : {0, 1}) {
+    const auto value = [&](std::string_view quantity) {
+      const auto term = functional_of(in_part(built_in(quantity), parts[k]), Over::maximum, {*problem});
+      return term->functional->evaluate(*problem, psi, *state, {});
+    };
+    EXPECT_NEAR(*value("peak_von_mises").over_positions / layers[k].peak_von_mises, 1, 1e-2);
+    EXPECT_NEAR(value("mass").of_shape / *layers[k].mass, 1, 1e-12);
+  }
+}
+
 /// A wheel with a hole across the interface on finer and finer grids.
 TEST(Layers, WithAHoleAcrossThemConverge) {
   double energies[3];
@@ -348,6 +415,69 @@ TEST(Layers, WithoutHolesStaySolid) {
   }
 }
 
+/// Holes in a layer without holes at the rim or the tread are not lost on the grid, as between them.
+TEST(Layers, WithoutHolesAtTheRimDoNotBlameTheGrid) {
+  const auto result = layered_case(
+      "[[material.layer]]\nouter_radius = 0.07\nyoungs_modulus = 9e8\npoissons_ratio = 0.4\nholes = "
+      "\"none\"\n",
+      "[[holes.ring]]\ncount = 8\ncenter_radius = 0.0625\nradius = 0.005\n[[holes.ring]]\ncount = 8\n"
+      "center_radius = 0.08\nradius = 0.006\n");
+  ASSERT_TRUE(result.value) << result.problems.front().text();
+  EXPECT_TRUE(lost_on_the_grid<2>(*result.value).empty());
+  EXPECT_EQ(components(initial_shape<2>(*result.value)).all.size(), 2u);  // the material and a hole
+}
+
+double length(const std::vector<Vec<2>>& points, const std::vector<std::uint32_t>& pairs) {
+  double sum = 0;
+  for (std::size_t k = 0; k < pairs.size(); k += 2) sum += distance(points[pairs[k]], points[pairs[k + 1]]);
+  return sum;
+}
+
+/// Pictures draw the edges of a mesh on the circle between two layers, as far as there is material.
+TEST(Layers, MeetAtTheEdgesThatPicturesDraw) {
+  auto model = paper_model(14, 192);
+  model.materials = layered<2>({{0.27, {200e6, 0.3}}, {0.34, {10e6, 0.45}}});
+  const SectorMesh whole = sector_mesh(full(model.grid), model);
+  EXPECT_NEAR(length(whole.points, whole.layer_edges) * model.grid.n_sectors / (2 * pi * 0.27), 1, 1e-3);
+  const SectorMesh mesh = sector_mesh(generic_hole(model.grid), model);
+  EXPECT_GT(length(mesh.points, mesh.layer_edges), 0);
+  EXPECT_LT(length(mesh.points, mesh.layer_edges), 0.9 * length(whole.points, whole.layer_edges));
+  for (const std::uint32_t end : mesh.layer_edges) {
+    EXPECT_NEAR(norm(mesh.points[end]), 0.27, 1e-5);
+    EXPECT_EQ(mesh.rows[end], 6);
+  }
+}
+
+/// A surface has separate vertices for the layers, so that fields jump, and lines around both side faces.
+TEST(Layers, HaveSeparateVerticesOnSurfaces) {
+  const PolarGrid<3> grid{0.20, 0.34, 0.12, 8, {14, 12, 4}};
+  const LevelSet<3> psi = [&] {
+    LevelSet<3> ring{Lattice<3>(grid, 1), {}};
+    ring.values.assign(ring.lattice.n_nodes(), -0.01);
+    return ring;
+  }();
+  const SurfaceMesh mesh = material_surface(psi, 2, 2);
+  const LayeredSurface layered = layered_surface(mesh, grid, {0.27});
+  EXPECT_EQ(layered.triangles.size(), mesh.triangles.size());
+  EXPECT_NEAR(enclosed_volume(layered), enclosed_volume(mesh), 1e-15);
+  EXPECT_EQ(layered.points.size(), mesh.points.size() + 8 * 2 * 24);  // the vertices on two circles
+  double sum = 0;
+  for (const auto& [a, b] : layered.layer_edges) {
+    sum += distance(layered.points[a], layered.points[b]);
+    EXPECT_NEAR(std::hypot(layered.points[a][0], layered.points[a][1]), 0.27, 1e-4);
+  }
+  EXPECT_NEAR(sum / (2 * 2 * pi * 0.27), 1, 1e-3);
+  for (const auto& triangle : layered.triangles) {
+    int inside = 0, outside = 0;
+    for (const int vertex : triangle) {
+      const CellPoint& place = layered.places[vertex % layered.sector_points()];
+      inside += place.cell[0] < 7;
+      outside += place.cell[0] >= 7;
+    }
+    EXPECT_TRUE(inside == 0 || outside == 0);
+  }
+}
+
 /// The parts of a shape make up the whole, also where a hole crosses from one to another.
 TEST(Layers, AreShapesOfTheirOwn) {
   const auto result = layered_case(
@@ -366,6 +496,45 @@ TEST(Layers, AreShapesOfTheirOwn) {
   for (const LayerShape<2>& part : parts) sum += material_measure(part.shape);
   EXPECT_NEAR(sum / material_measure(whole), 1, 1e-12);
   EXPECT_LT(material_measure(parts[1].shape), sector_measure<2>(parts[1].shape.lattice.grid()));
+}
+
+TEST(Layers, AreNamedByBoundsTermsAndExpectations) {
+  const std::string tyre =
+      "[[material.layer]]\nname = \"tyre\"\ninner_radius = 0.09\nyoungs_modulus = 9e6\n"
+      "poissons_ratio = 0.4\ndensity = 1100\n";
+  const auto good =
+      layered_case(tyre,
+                   "[[constraint]]\nquantity = \"peak_von_mises\"\nlayer = \"tyre\"\nat_most = 3e5\n"
+                   "[[constraint]]\nquantity = \"peak_von_mises\"\nlayer = \"material\"\nat_least = 4e5\n"
+                   "[[objective.term]]\nquantity = \"mass\"\nlayer = \"tyre\"\nweight = 2\n");
+  ASSERT_TRUE(good.value) << good.problems.front().text();
+  const Case& c = *good.value;
+  EXPECT_EQ(name(quantity_of(c, c.constraints[0])), "peak_von_mises of tyre");
+  EXPECT_FALSE(quantity_of(c, c.constraints[0]) == quantity_of(c, c.constraints[1]));
+  const Quantity mass = quantity_of(c, c.objective.terms[0]);
+  EXPECT_EQ(number_key(mass, 2), "mass_kg of tyre");
+  EXPECT_EQ(mass->part->inner, 0.09);
+  EXPECT_FALSE(holds_volume(c));
+
+  const auto refuses = [&](const std::string& table, const std::string& key) {
+    const auto result = layered_case(tyre, table);
+    EXPECT_FALSE(result.value) << table;
+    ASSERT_FALSE(result.problems.empty());
+    EXPECT_EQ(result.problems.front().key, key) << result.problems.front().text();
+    return result.problems.front().text();
+  };
+  const auto bound = [](const std::string& quantity, const std::string& layer) {
+    return "[[constraint]]\nquantity = \"" + quantity + "\"\nlayer = \"" + layer + "\"\nat_most = 3\n";
+  };
+  const std::string text = refuses(bound("peak_von_mises", "tyer"), "constraint[1].layer");
+  EXPECT_NE(text.find("material, tyre"), std::string::npos) << text;
+  refuses(bound("stiffness", "tyre"), "constraint[1].layer");
+  refuses(bound("mass", "material"), "constraint[1].quantity");  // without a density
+  refuses(bound("peak_von_mises", "tyre") +
+              "[[constraint]]\nquantity = \"peak_von_mises\"\nlayer = \"tyre\"\nat_least = 4\n",
+          "constraint[2].at_least");
+  refuses("[objective]\nlayer = \"tyre\"\n", "objective.layer");
+  refuses("[[expect]]\nquantity = \"largest_strain\"\nlayer = \"tire\"\nvalue = 1\n", "expect[1].layer");
 }
 
 TEST(Layers, ThatCannotBeAreRefusedByKey) {
@@ -390,6 +559,10 @@ TEST(Layers, ThatCannotBeAreRefusedByKey) {
   refuses("[[material.layer]]\ninner_radius = 0.09\nyoungs_modulus = 3e6\npoissons_ratio = 0.499995\n",
           "material.layer[1].poissons_ratio");
   refuses(layer + "inner_radius = 0.09\n[objective]\nminimize = \"mass\"\n", "objective.minimize");
+  refuses(
+      "[material]\nyoungs_modulus = 1e2\n[[material.layer]]\nname = \"hub\"\nouter_radius = 0.06\n"
+      "youngs_modulus = 1e12\npoissons_ratio = 0.3\n",
+      "material.layer[1].youngs_modulus");
 }
 
 }  // namespace

@@ -4,12 +4,21 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <TCollection_ExtendedString.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <sstream>
 #include <stdexcept>
@@ -18,7 +27,7 @@
 #include "wheelwright/output/plugins/step_solid.h"
 
 // Writes the solid as a STEP file (AP214) by OpenCASCADE: planes above and below, cylinders along circles and
-// arcs, B-spline surfaces along splines.
+// arcs, B-spline surfaces along splines. A wheel of several materials is an assembly of its layers.
 
 namespace wheelwright {
 namespace {
@@ -38,17 +47,46 @@ void set_header(const Handle(StepData_StepModel) & model, const WheelModel& whee
   header.SetAuthorisation(text(""));
 }
 
-std::string file(const WheelModel& wheel) {
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
-  const TopoDS_Shape shape = solid_of(wheel);
+TopoDS_Shape valid_solid(const WheelModel& wheel) {
+  TopoDS_Shape shape = solid_of(wheel);
   if (!BRepCheck_Analyzer(shape).IsValid())
     throw std::runtime_error("OpenCASCADE did not produce a valid solid");
-  STEPControl_Writer writer;
-  Interface_Static::SetCVal("write.step.schema", "AP214IS");
-  Interface_Static::SetCVal("write.step.unit", "MM");
-  Interface_Static::SetCVal("write.step.product.name", wheel.title.c_str());
-  if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
-    throw std::runtime_error("OpenCASCADE could not convert the solid to STEP");
+  return shape;
+}
+
+void expect_done(bool is_done) {
+  if (!is_done) throw std::runtime_error("OpenCASCADE could not convert the solid to STEP");
+}
+
+Quantity_Color colour(std::size_t layer) {
+  const auto [red, green, blue] = layer_colour(layer);
+  return {red / 255.0, green / 255.0, blue / 255.0, Quantity_TOC_sRGB};
+}
+
+/// An assembly of the wheel's layers, with their names and colours.
+Handle(TDocStd_Document) assembly(const WheelModel& wheel) {
+  const auto name = [](const TDF_Label& label, const std::string& t) {
+    TDataStd_Name::Set(label, TCollection_ExtendedString(t.c_str(), Standard_True));
+  };
+  Handle(TDocStd_Document) document;
+  XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
+  const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const Handle(XCAFDoc_ColorTool) colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
+  const TDF_Label whole = shapes->NewShape();
+  name(whole, wheel.title);
+  for (std::size_t k = 0; k < wheel.layers.size(); ++k) {
+    const WheelLayer& layer = wheel.layers[k];
+    const TDF_Label part = shapes->AddShape(valid_solid(layer_model(wheel, layer)), Standard_False);
+    name(part, layer.name);
+    colours->SetColor(part, colour(k), XCAFDoc_ColorSurf);
+    name(shapes->AddComponent(whole, part, TopLoc_Location()), layer.name);
+  }
+  shapes->UpdateAssemblies();
+  return document;
+}
+
+/// What a writer has converted, as text.
+std::string text_of(const STEPControl_Writer& writer, const WheelModel& wheel) {
   const Handle(StepData_StepModel) model = writer.Model();
   set_header(model, wheel);
   StepData_StepWriter step(model);
@@ -56,6 +94,20 @@ std::string file(const WheelModel& wheel) {
   std::ostringstream stream;
   step.Print(stream);
   return stream.str();
+}
+
+std::string file(const WheelModel& wheel) {
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+  STEPCAFControl_Writer of_assembly;
+  STEPControl_Writer& writer = of_assembly.ChangeWriter();
+  Interface_Static::SetCVal("write.step.schema", "AP214IS");
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  Interface_Static::SetCVal("write.step.product.name", wheel.title.c_str());
+  if (wheel.layers.empty())
+    expect_done(writer.Transfer(valid_solid(wheel), STEPControl_AsIs) == IFSelect_RetDone);
+  else
+    expect_done(of_assembly.Transfer(assembly(wheel), STEPControl_AsIs));
+  return text_of(writer, wheel);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "wheelwright/output/report/colour_map.h"
+#include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/surface_vtp.h"
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/shape/geometry/cell_map.h"
@@ -18,6 +19,7 @@ using P = DeformedLayout;
 constexpr double caption_height = 64;  // [pixels]
 constexpr int image_pixels = 1040;     // for screens with several pixels per unit of the picture
 constexpr double half_view = 1.1;      // over the wheel's radius
+constexpr double line_width = 0.005;   // of lines between layers, over the wheel's radius
 
 /// How far magnified displacements move the tread below the ground, if there is one, at the displacement's
 /// nodes there.
@@ -84,6 +86,31 @@ ColourScale scale_of(const std::vector<float>& values, const DeformedPicture<3>&
   return scale;
 }
 
+/// Edges of a surface as ribbons that stand off it.
+LitBody ribbons(const std::vector<Vec<3>>& points, const std::vector<std::array<int, 2>>& edges,
+                const Camera& camera, double width) {
+  constexpr Rgb ink{0x24, 0x29, 0x2f};
+  LitBody body{.points = {}, .triangles = {}, .colours = {}, .is_lit = false};
+  for (const auto& [a, b] : edges) {
+    const Vec<3> along = camera.turned(points[b] - points[a]);
+    const double length = std::hypot(along[0], along[1]);
+    if (!(length > 0)) continue;
+    const auto on_screen = [&](double right, double up, double near) {
+      return camera.direction({right, up, near});
+    };
+    const Vec<3> side = on_screen(-0.5 * width * along[1] / length, 0.5 * width * along[0] / length, 0),
+                 nearer = on_screen(0, 0, width);
+    const int first = static_cast<int>(body.points.size());
+    for (const Vec<3>& corner : {points[a] - side + nearer, points[b] - side + nearer,
+                                 points[b] + side + nearer, points[a] + side + nearer})
+      body.points.push_back(corner);
+    body.triangles.push_back({first, first + 1, first + 2});
+    body.triangles.push_back({first, first + 2, first + 3});
+  }
+  body.colours.assign(body.points.size(), ink);
+  return body;
+}
+
 /// The ground under the wheel.
 LitBody lit_ground(const PolarGrid<3>& grid, const Ground& ground) {
   constexpr Rgb grey{0xe4, 0xe7, 0xea};
@@ -128,11 +155,17 @@ Camera wheel_camera(const PolarGrid<3>& grid) {
   return {yaw, pitch, {}, half_view * std::hypot(grid.outer_radius, 0.25 * grid.width)};
 }
 
-LitBody lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid) {
+std::vector<LitBody> lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid,
+                               const LayerCircles& layers) {
   constexpr Rgb blue{0x6f, 0x9a, 0xc4};
-  return {.points = standing_on_the_ground(surface.points, grid, 0),
-          .triangles = surface.triangles,
-          .colours = std::vector<Rgb>(surface.points.size(), blue)};
+  std::vector<LitBody> bodies{{.points = standing_on_the_ground(surface.points, grid, 0),
+                               .triangles = surface.triangles,
+                               .colours = std::vector<Rgb>(surface.points.size(), blue)}};
+  if (layers.empty()) return bodies;
+  const LayeredSurface layered = layered_surface(surface, grid, layers.radii);
+  bodies.push_back(ribbons(standing_on_the_ground(layered.points, grid, 0), layered.layer_edges,
+                           wheel_camera(grid), line_width * grid.outer_radius));
+  return bodies;
 }
 
 std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
@@ -155,9 +188,10 @@ std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
   return result;
 }
 
-std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
+std::string deformed_svg(const SurfaceMesh& whole, const Lattice<3>& lattice,
                          const DeformedPicture<3>& picture) {
   const PolarGrid<3>& grid = lattice.grid();
+  const LayeredSurface surface = layered_surface(whole, grid, picture.layers.radii);
   const FieldPoints<3> fields = field_points(surface, lattice);
   const auto displacement = fields.values({"displacement", "m", picture.displacement});
   const auto scalar = fields.values(picture.scalar)[0];
@@ -166,6 +200,9 @@ std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
                                              picture.contact_azimuth);
   std::vector<LitBody> bodies{
       {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}};
+  if (!picture.layers.empty())
+    bodies.push_back(
+        ribbons(points, surface.layer_edges, wheel_camera(grid), line_width * grid.outer_radius));
   if (!picture.is_bonded) bodies.insert(bodies.begin(), lit_ground(grid, picture.ground));
   const Image image = lit_image(bodies, wheel_camera(grid), image_pixels);
   const bool is_pressed = Press(lattice, picture).maximum() > 0.002 * grid.outer_radius;

@@ -12,15 +12,12 @@ std::vector<LayerShape<dim>> layer_shapes(const Case& c, const LevelSet<dim>& sh
   std::vector<LayerShape<dim>> result;
   if (c.layers.empty()) return result;
   const PolarGrid<dim>& grid = shape.lattice.grid();
-  int n_rests = 0;
-  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
-    std::string name = layer ? name_of_layer(c, *layer) : "material";
-    if (!layer && ++n_rests > 1) name += " " + std::to_string(n_rests);
+  for (const auto& [name, inner, outer, material, layer] : placed_materials(c)) {
     LevelSet<dim> part = in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line);
     // Holes end a thousandth of a cell before it.
     if (layer && c.layers[*layer].holes == LayerHoles::none)
       for (double& value : part.values) value = std::min(value, -grid.resolution());
-    result.push_back({std::move(name), std::move(part)});
+    result.push_back({name, std::move(part)});
   }
   return result;
 }
