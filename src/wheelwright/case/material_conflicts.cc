@@ -181,16 +181,12 @@ std::string fitting_cells(const Case& c) {
 void check_contrast(const Case& c, Conflicts& found) {
   constexpr double largest = 1e9;
   const auto ring = placed_materials(c);
-  const auto modulus = [](const PlacedMaterial& placed) { return placed.material.youngs_modulus; };
+  const auto modulus = [](const PlacedMaterial& placed) { return placed.youngs_modulus(); };
   const PlacedMaterial &softest = *std::ranges::min_element(ring, {}, modulus),
                        &stiffest = *std::ranges::max_element(ring, {}, modulus);
   const double ratio = modulus(stiffest) / modulus(softest);
   if (ratio <= largest) return;
-  const auto key = [](const PlacedMaterial& placed) {
-    return placed.layer ? key_of(&MaterialLayer::youngs_modulus, *placed.layer)
-                        : key_of(&Material::youngs_modulus);
-  };
-  found.push_back({{key(stiffest), key(softest)},
+  found.push_back({{stiffest.youngs_modulus_key(), softest.youngs_modulus_key()},
                    fmt::format("{} is {:.2g} times as stiff as {}: rounding would spoil the solution",
                                stiffest.name, ratio, softest.name),
                    fmt::format("use at most {:.0e} times; a layer that much stiffer hardly deforms, one that "
