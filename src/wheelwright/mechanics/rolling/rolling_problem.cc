@@ -30,7 +30,8 @@ namespace {
 /// plane of the wheel.
 template <int dim>
 int components_in_contact(const RollingModel<dim>& model) {
-  return !contact_law_of(model)->is_tangential() && model.camber == 0 ? 2 : dim;
+  const bool is_in_plane = !contact_law_of(model)->is_tangential() && model.camber == 0;
+  return is_in_plane ? std::min(2, dim) : dim;
 }
 
 /// Why the materials of a model are not those of a linear ring.

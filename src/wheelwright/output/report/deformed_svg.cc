@@ -17,7 +17,7 @@ namespace wheelwright {
 namespace {
 
 using P = DeformedLayout;
-constexpr double foot = 36;  // [pixels]
+constexpr double height_of_foot = 36;  // [pixels]
 constexpr int units_per_pixel = 10;
 constexpr double point_tolerance = 0.12 * units_per_pixel;
 constexpr int parts_of_cell = 2, parts_in_window = 4;  // along each axis
@@ -283,7 +283,7 @@ std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
           material_svg(picture_scalar(pieces, view), layer_path(psi, material, picture, view), scale, view,
                        picture) +
           marks(material, grid, picture, view) + peak_svg(material, pieces, picture, view),
-      scale, foot, is_pressed ? footnote(picture.magnification, foot) : "");
+      scale, height_of_foot, is_pressed ? footnote(picture.magnification, height_of_foot) : "");
 }
 
 }  // namespace wheelwright
