@@ -293,7 +293,7 @@ void check_cords(const Case& c, Conflicts& found) {
 }
 
 /// The condensed rows at the tread, of which there are several with an annulus, must be of one material.
-void check_annulus(const Case& c, Conflicts& found) {
+void check_material_of_annulus(const Case& c, Conflicts& found) {
   const PlacedMaterial outermost = placed_materials(c).back();
   const double thickness = outermost.outer_radius - outermost.inner_radius;
   if (!outermost.layer && c.layers.empty()) return;
@@ -322,7 +322,7 @@ void material_conflicts(const Case& c, Conflicts& found) {
   }
   check_lines(c, found);
   check_cords(c, found);
-  check_annulus(c, found);
+  check_material_of_annulus(c, found);
   check_named_layers(c, found);
   check_contrast(c, found);
 }

@@ -194,9 +194,10 @@ std::vector<RankedDesign> write_designs(const fs::path& folder, const std::strin
                                         const std::vector<RankedQuantity>& quantities,
                                         const std::string& title) {
   std::vector<RankedDesign> order = ranked(designs, quantities);
-  for (RankedDesign& one : order)
+  for (RankedDesign& one : order) {
     one.outline = outline(folder / folder_of_designs / one.design.name / saved_shape_file);
-  if (!one.outline.empty()) one.layers = layers_in_outline(one.design.source);
+    if (!one.outline.empty()) one.layers = layers_in_outline(one.design.source);
+  }
   write_atomically(folder / (name + ".csv"), designs_csv(order));
   write_atomically(folder / (name + ".json"), designs_json(order, quantities));
   write_atomically(folder / pareto_picture, pareto_svg(order, quantities, title));
