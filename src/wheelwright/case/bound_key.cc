@@ -65,8 +65,9 @@ BoundKeys bound(const std::vector<Key<Struct>>& keys, Struct& table) {
 #define WHEELWRIGHT_INSTANTIATE(Struct) template BoundKeys bound(const std::vector<Key<Struct>>&, Struct&);
 WHEELWRIGHT_INSTANTIATE(Case)
 WHEELWRIGHT_INSTANTIATE(Wheel)
-WHEELWRIGHT_INSTANTIATE(Material)
+WHEELWRIGHT_INSTANTIATE(RingMaterial)
 WHEELWRIGHT_INSTANTIATE(MaterialLayer)
+WHEELWRIGHT_INSTANTIATE(MaterialCord)
 WHEELWRIGHT_INSTANTIATE(Load)
 WHEELWRIGHT_INSTANTIATE(CaseLoad)
 WHEELWRIGHT_INSTANTIATE(Contact)

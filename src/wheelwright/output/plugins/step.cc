@@ -86,7 +86,7 @@ Handle(TDocStd_Document) assembly(const WheelModel& wheel) {
 }
 
 /// What a writer has converted, as text.
-std::string text_of(const STEPControl_Writer& writer, const WheelModel& wheel) {
+std::string text_of(STEPControl_Writer& writer, const WheelModel& wheel) {
   const Handle(StepData_StepModel) model = writer.Model();
   set_header(model, wheel);
   StepData_StepWriter step(model);
