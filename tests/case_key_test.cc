@@ -43,13 +43,16 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
   const Wheel w;
   const auto& [dimension, inner, outer, width, sectors, sides] = w;
   expect_keys(w, dimension, inner, outer, width, sectors, sides);
-  const Material m;
-  const auto& [modulus, ratio, plane, density] = m;
-  expect_keys(m, modulus, ratio, plane, density);
+  const RingMaterial m;
+  const auto& [modulus, ratio, plane, density] = static_cast<const Material&>(m);
+  const auto& [e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz] =
+      static_cast<const OrthotropicConstants&>(m);
+  expect_keys(m, modulus, ratio, plane, density, e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz);
   const Load l;
-  const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, positions, own, cases] =
-      l;
-  expect_keys(l, force, travel, along, lateral, camber, torque, body, pressure, speed, positions);
+  const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, ground, ground_radius,
+               ground_height, ground_place, ground_profile, positions, own, cases] = l;
+  expect_keys(l, force, travel, along, lateral, camber, torque, body, pressure, speed, ground, ground_radius,
+              ground_height, ground_place, ground_profile, positions);
   const Contact t;
   const auto& [with, method, theta, gamma_0, friction, points] = t;
   expect_keys(t, with, method, theta, gamma_0, friction, points);
@@ -66,8 +69,9 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
 
 TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
   const Objective j;
-  const auto& [minimize, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm, terms] = j;
-  expect_keys(j, minimize, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm);
+  const auto& [minimize, layer, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm,
+               terms] = j;
+  expect_keys(j, minimize, layer, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm);
   const Optimizer o;
   const auto& [method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
                redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation] = o;
@@ -80,14 +84,16 @@ TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
 
 TEST(CaseKey, EveryMemberOfAnArrayHasAKey) {
   const CaseLoad l;
-  const auto& [name, weight, force, travel, along, torque, body, pressure, speed, own] = l;
-  expect_keys(l, name, weight, force, travel, along, torque, body, pressure, speed);
+  const auto& [name, weight, force, travel, along, torque, body, pressure, speed, ground, ground_radius,
+               ground_height, ground_place, ground_profile, own] = l;
+  expect_keys(l, name, weight, force, travel, along, torque, body, pressure, speed, ground, ground_radius,
+              ground_height, ground_place, ground_profile);
   const Constraint b;
-  const auto& [bounded, at_least, at_most, equals, over, load_case] = b;
-  expect_keys(b, bounded, at_least, at_most, equals, over, load_case);
+  const auto& [bounded, layer, at_least, at_most, equals, over, load_case] = b;
+  expect_keys(b, bounded, layer, at_least, at_most, equals, over, load_case);
   const Expectation e;
-  const auto& [expected, value, margin, iteration, of_case] = e;
-  expect_keys(e, expected, value, margin, iteration, of_case);
+  const auto& [expected, of_layer, value, margin, iteration, of_case] = e;
+  expect_keys(e, expected, of_layer, value, margin, iteration, of_case);
 }
 
 TEST(CaseKey, EveryMemberOfAShapeHasAKey) {
@@ -134,8 +140,8 @@ TEST(CaseKey, EveryMemberOfADrawnShapeHasAKey) {
   const auto& [annulus_order, annulus_as, inner, outer] = a;
   expect_keys(a, annulus_as, inner, outer);
   const ObjectiveTerm t;
-  const auto& [quantity, weight] = t;
-  expect_keys(t, quantity, weight);
+  const auto& [quantity, layer, weight] = t;
+  expect_keys(t, quantity, layer, weight);
 }
 
 TEST(CaseKey, HasThePathOfTheFile) {

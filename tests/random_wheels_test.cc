@@ -25,6 +25,7 @@ using testing::AnyWheels;
 using testing::LayeredWheels;
 using testing::OrthotropicWheels;
 using testing::RandomWheels;
+using testing::WheelsOnGrounds;
 
 /// Changes a case as the remedy of a problem says: "take KEY = VALUE", "take at most LOAD N" or "remove one
 /// of the two" rings. Returns whether it could be followed.
