@@ -38,7 +38,9 @@ void check_nitsche(const Case& c, Conflicts& found) {
 void check_contact_points(const SingleLoad& single, Conflicts& found) {
   const Case& c = single.c;
   constexpr double most = 2500;
-  if (is_overloaded_in_pascals(c)) return;
+  const double radius = contact_radius(c);
+  const bool fits_the_ground = radius > 0 && std::isfinite(radius);
+  if (is_overloaded_in_pascals(c) || !fits_the_ground) return;
   const auto unknowns = [](const Case& shown) {
     return cells_per_contact_patch(shown) * shown.contact.quadrature_points *
            (shown.contact.friction > 0 || shown.contact.with == Counterpart::ring ? 2 : 1);

@@ -81,8 +81,9 @@ Ground::Nearest Ground::nearest(const Face& face, const Vec<2>& place) {
 Ground::Nearest Ground::nearest(const Vec<2>& place) const {
   if (is_flat()) return {place[1], 0};
   Nearest result{std::numeric_limits<double>::infinity(), 0};
+  // A place on one face is far behind another, such as the side of a kerb.
   const auto take = [&](const Nearest& candidate) {
-    if (candidate.gap < result.gap) result = candidate;
+    if (std::abs(candidate.gap) < std::abs(result.gap)) result = candidate;
   };
   for (const Face& face : outline_->faces) take(nearest(face, place));
   for (const Round& round : outline_->rounds) take(nearest(round, place));
