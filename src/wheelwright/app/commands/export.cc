@@ -187,15 +187,20 @@ class ExportCommand : public Subcommand {
     if (const auto warning = roughness_warning(input.source, report->roughness); !warning.empty())
       print_warning(stderr, warning);
     auto layers = layer_shapes(input.source, input.shape);
-    std::vector<double> radii;
-    for (std::size_t k = 1; k < layers.size(); ++k)
-      radii.push_back(layers[k].shape.lattice.grid().inner_radius);
     if (layers.empty()) return wheel;
-    auto outlines = cad::cut_by_circles(wheel.outline, radii);
+    auto outlines = cad::cut_by_circles(wheel.outline, cutting_radii(input.source, accuracy));
     if (!outlines) return Faults{outlines.failure()};
-    for (std::size_t k = 0; k < layers.size(); ++k)
+    Faults faults;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      for (const cad::OutlineFault& fault : cad::crossing_faults((*outlines)[k], accuracy))
+        faults.push_back(
+            {fmt::format("{}, of {}: they are nearer to each other than the tolerance; use a "
+                         "smaller --tolerance",
+                         fault.what, layers[k].name)});
       wheel.layers.push_back(
           {std::move(layers[k].name), std::move(layers[k].shape), std::move((*outlines)[k])});
+    }
+    if (!faults.empty()) return faults;
     return wheel;
   }
 

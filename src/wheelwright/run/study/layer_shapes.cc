@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/shape/geometry/annulus.h"
 
@@ -20,6 +21,31 @@ std::vector<LayerShape<dim>> layer_shapes(const Case& c, const LevelSet<dim>& sh
     result.push_back({name, std::move(part)});
   }
   return result;
+}
+
+namespace {
+
+/// Whether what lies at a radius stays material.
+bool stays_material(const Case& c, double radius) {
+  const Bands solid = bands(c);
+  return radius < c.wheel.inner_radius + solid.rim.thickness ||
+         radius > c.wheel.outer_radius - solid.tread.thickness ||
+         std::ranges::any_of(solid.between, [&](const SolidAnnulus& annulus) {
+           return annulus.inner < radius && radius < annulus.outer;
+         });
+}
+
+}  // namespace
+
+std::vector<double> cutting_radii(const Case& c, double tolerance) {
+  const double h = polar_grid<2>(c).resolution(), beside = 1e-6 * h, apart = 0.001 * h + 2 * tolerance;
+  std::vector<double> radii;
+  for (const double radius : materials<2>(c).interfaces()) {
+    const bool is_solid_inside = stays_material(c, radius - beside),
+               is_solid_outside = stays_material(c, radius + beside);
+    radii.push_back(radius + (is_solid_inside ? apart : 0) - (is_solid_outside ? apart : 0));
+  }
+  return radii;
 }
 
 template decltype(layer_shapes<2>) layer_shapes<2>;

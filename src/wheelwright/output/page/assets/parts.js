@@ -159,7 +159,7 @@ const parts = (() => {
       { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222,
         polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 }));
     let surface = null, full = 0, places = null, shades = null, edges = null;
-    const between = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x24292f }));
+    const between = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0xb8bec6 }));
     const kinds = {};
     // Replaces the shape by another one of the same wheel, or its load positions; visible when painted.
     let taken = {};
