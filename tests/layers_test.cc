@@ -8,6 +8,9 @@
 #include <numbers>
 
 #include "tests/support.h"
+#include "wheelwright/cad/outline/check_outline.h"
+#include "wheelwright/cad/outline/cut_outline.h"
+#include "wheelwright/cad/outline/fit_outline.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/lu_factor.h"
@@ -496,6 +499,40 @@ TEST(Layers, AreShapesOfTheirOwn) {
   for (const LayerShape<2>& part : parts) sum += material_measure(part.shape);
   EXPECT_NEAR(sum / material_measure(whole), 1, 1e-12);
   EXPECT_LT(material_measure(parts[1].shape), sector_measure<2>(parts[1].shape.lattice.grid()));
+}
+
+/// Holes end a thousandth of a cell before a layer without holes, which would leave a skin beside it.
+TEST(Layers, AreCutOnTheSideOfTheHolesThatEndAtThem) {
+  const auto result = parse_case(
+      "[wheel]\ninner_radius = 0.05\nouter_radius = 0.1\nwidth = 0.05\nsectors = 8\n[load]\nforce = 500\n"
+      "[material]\nyoungs_modulus = 60e6\n[[material.layer]]\nouter_radius = 0.06\nyoungs_modulus = 9e8\n"
+      "poissons_ratio = 0.4\n[[material.layer]]\ninner_radius = 0.07\nouter_radius = 0.08\n"
+      "youngs_modulus = 900e6\npoissons_ratio = 0.4\nholes = \"none\"\n[[holes.ring]]\ncount = 8\n"
+      "center_radius = 0.075\nradius = 0.012\n[grid]\nradial_cells = 20\nangular_cells = 160\n"
+      "[optimizer]\ntread_band = 0.005\n",
+      "layer.toml");
+  ASSERT_TRUE(result.value) << result.problems.front().text();
+  constexpr double tolerance = 1e-5;
+  const double apart = 0.001 * polar_grid<2>(*result.value).resolution() + 2 * tolerance;
+  const auto radii = cutting_radii(*result.value, tolerance);
+  ASSERT_EQ(radii.size(), 3u);
+  EXPECT_NEAR(radii[0], 0.06, 1e-15);
+  EXPECT_NEAR(radii[1], 0.07 - apart, 1e-15);
+  EXPECT_NEAR(radii[2], 0.08 + apart, 1e-15);
+  const auto whole = cad::fit_outline(initial_shape<2>(*result.value), tolerance);
+  ASSERT_TRUE(whole) << whole.failure().what;
+  const auto parts = cad::cut_by_circles(*whole, radii);
+  ASSERT_TRUE(parts) << parts.failure().what;
+  double sum = 0;
+  for (const cad::Outline& part : *parts) {
+    EXPECT_TRUE(cad::crossing_faults(part, tolerance).empty());
+    sum += cad::material_area(part);
+  }
+  EXPECT_NEAR(sum / cad::material_area(*whole), 1, 1e-12);
+  // Not cut there, the holes leave skins beside the layer.
+  const auto with_skins = cad::cut_by_circles(*whole, {0.06, 0.07, 0.08});
+  ASSERT_TRUE(with_skins);
+  EXPECT_FALSE(cad::crossing_faults((*with_skins)[1], tolerance).empty());
 }
 
 TEST(Layers, AreNamedByBoundsTermsAndExpectations) {
