@@ -538,30 +538,30 @@ class Layers(unittest.TestCase):
     def step(cls, stem):
         lines = subprocess.run([read_step, cls.folder / f"{stem}.step"], input="", capture_output=True, text=True,
                                check=True).stdout.splitlines()
-        facts = dict(line.split(" ", 1) for line in lines if not line.startswith("part "))
-        facts["parts"] = [line.split(" ", 5)[1:] for line in lines if line.startswith("part ")]
+        facts = dict(line.split(" ", 1) for line in lines if not line.startswith("body "))
+        facts["bodies"] = [line.split(" ", 5)[1:] for line in lines if line.startswith("body ")]
         return facts
 
-    def test_step_has_a_named_valid_part_per_layer(self):
-        parts = self.whole["parts"]
-        self.assertEqual([name for *_, name in parts], self.NAMES)
+    def test_step_has_a_named_valid_body_per_layer(self):
+        bodies = self.whole["bodies"]
+        self.assertEqual([name for *_, name in bodies], self.NAMES)
         self.assertEqual(self.whole["valid"], "1")
-        for valid, _, solids, colour, name in parts:
+        for valid, _, solids, colour, name in bodies:
             self.assertEqual((valid, solids), ("1", "1"), name)
             self.assertNotEqual(colour, "none")
-        self.assertEqual(len({colour for _, _, _, colour, _ in parts}), 3)
+        self.assertEqual(len({colour for _, _, _, colour, _ in bodies}), 3)
 
-    def test_the_parts_add_up_to_the_wheel(self):
+    def test_the_bodies_add_up_to_the_wheel(self):
         one = temporary / "one_material.toml"  # the same shape
         one.write_text(re.sub(r"(?s)\[\[material.layer\]\].*?(?=\[\[(?!material))", "", LAYERED))
         wheelwright("export", one, "--format", "step", "--output", self.folder)
         volume = float(self.step("one_material")["volume"])
-        parts = [float(part[1]) for part in self.whole["parts"]]
-        self.assertAlmostEqual(sum(parts) / volume, 1, delta=1e-6)
-        for part, name in zip(parts, self.NAMES):
+        volumes = [float(body[1]) for body in self.whole["bodies"]]
+        self.assertAlmostEqual(sum(volumes) / volume, 1, delta=1e-6)
+        for of_layer, name in zip(volumes, self.NAMES):
             alone = self.step(f"layered-{name}")
             self.assertEqual(alone["valid"], "1")
-            self.assertAlmostEqual(float(alone["volume"]) / part, 1, delta=1e-9)
+            self.assertAlmostEqual(float(alone["volume"]) / of_layer, 1, delta=1e-9)
 
     def test_3mf_has_a_named_object_per_layer(self):
         mesh = self.folder / "of_3mf.stl"
@@ -602,7 +602,16 @@ class Layers(unittest.TestCase):
     def test_files_by_layer_only_on_request(self):
         folder = temporary / "layered_whole"
         wheelwright("export", self.case, "--output", folder)
-        self.assertEqual(sorted(os.listdir(folder)), ["layered.dxf", "layered.stl", "layered.svg"])
+        self.assertEqual(sorted(file.name for file in folder.glob("layered*")), ["layered.dxf", "layered.stl", "layered.svg"])
+
+    def test_spokes_end_at_a_band_without_a_skin(self):
+        case = temporary / "shear-band.toml"
+        wheelwright("init", case, "--preset", "shear-band")
+        folder = temporary / "shear_export"
+        wheelwright("export", case, "--format", "step,stl,3mf", "--by-layer", "--output", folder)
+        for name in ("material", "band", "tread"):
+            facts = admesh(folder / f"shear-band-{name}.stl")
+            self.assertEqual((facts["Number of parts"], facts["Degenerate facets"]), (1, 0), name)
 
 
 class Solid(unittest.TestCase):

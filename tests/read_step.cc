@@ -34,7 +34,7 @@ int solids_in(const TopoDS_Shape& shape) {
   return solids;
 }
 
-void print_parts(const char* file) {
+void print_bodies(const char* file) {
   Handle(TDocStd_Document) document;
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
   STEPCAFControl_Reader reader;
@@ -43,13 +43,10 @@ void print_parts(const char* file) {
   if (reader.ReadFile(file) != IFSelect_RetDone || !reader.Transfer(document)) return;
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const Handle(XCAFDoc_ColorTool) colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
-  TDF_LabelSequence roots, parts;
-  shapes->GetFreeShapes(roots);
-  for (const TDF_Label& root : roots) XCAFDoc_ShapeTool::GetComponents(root, parts);
-  for (const TDF_Label& part : parts) {
-    TDF_Label label;
+  TDF_LabelSequence bodies;
+  shapes->GetFreeShapes(bodies);
+  for (const TDF_Label& label : bodies) {
     Handle(TDataStd_Name) name;
-    XCAFDoc_ShapeTool::GetReferredShape(part, label);
     label.FindAttribute(TDataStd_Name::GetID(), name);
     const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(label);
     GProp_GProps volume;
@@ -57,7 +54,7 @@ void print_parts(const char* file) {
     Quantity_Color colour;
     const bool has_colour = colours->GetColor(label, XCAFDoc_ColorSurf, colour) ||
                             colours->GetColor(label, XCAFDoc_ColorGen, colour);
-    std::cout << "part " << BRepCheck_Analyzer(shape).IsValid() << " " << volume.Mass() << " "
+    std::cout << "body " << BRepCheck_Analyzer(shape).IsValid() << " " << volume.Mass() << " "
               << solids_in(shape) << " "
               << (has_colour ? Quantity_Color::ColorToHex(colour).ToCString() : "none") << " "
               << TCollection_AsciiString(name->Get()).ToCString() << "\n";
@@ -98,7 +95,7 @@ int main(int, char** argv) {
   for (const auto& [kind, n] : faces) std::cout << kind << " " << n << "\n";
   std::cout << "lower " << low[0] << " " << low[1] << " " << low[2] << "\nupper " << high[0] << " " << high[1]
             << " " << high[2] << "\n";
-  print_parts(argv[1]);
+  print_bodies(argv[1]);
   BRepClass3d_SolidClassifier classifier(shape);
   for (double x, y, z; std::cin >> x >> y >> z;) {
     classifier.Perform(gp_Pnt(x, y, z), 1e-7);

@@ -27,7 +27,7 @@
 #include "wheelwright/output/plugins/step_solid.h"
 
 // Writes the solid as a STEP file (AP214) by OpenCASCADE: planes above and below, cylinders along circles and
-// arcs, B-spline surfaces along splines. A wheel of several materials is an assembly of its layers.
+// arcs, B-spline surfaces along splines. A wheel of several materials has one body per layer.
 
 namespace wheelwright {
 namespace {
@@ -63,26 +63,20 @@ Quantity_Color colour(std::size_t layer) {
   return {red / 255.0, green / 255.0, blue / 255.0, Quantity_TOC_sRGB};
 }
 
-/// An assembly of the wheel's layers, with their names and colours.
-Handle(TDocStd_Document) assembly(const WheelModel& wheel) {
-  const auto name = [](const TDF_Label& label, const std::string& t) {
-    TDataStd_Name::Set(label, TCollection_ExtendedString(t.c_str(), Standard_True));
-  };
+/// Adds the layers one after the other, with their names and colours: OpenCASCADE would write the colours of
+/// the parts of an assembly in the order of their addresses.
+void add_layers(const WheelModel& wheel, STEPCAFControl_Writer& writer) {
   Handle(TDocStd_Document) document;
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const Handle(XCAFDoc_ColorTool) colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
-  const TDF_Label whole = shapes->NewShape();
-  name(whole, wheel.title);
   for (std::size_t k = 0; k < wheel.layers.size(); ++k) {
     const WheelLayer& layer = wheel.layers[k];
-    const TDF_Label part = shapes->AddShape(valid_solid(layer_model(wheel, layer)), Standard_False);
-    name(part, layer.name);
-    colours->SetColor(part, colour(k), XCAFDoc_ColorSurf);
-    name(shapes->AddComponent(whole, part, TopLoc_Location()), layer.name);
+    const TDF_Label body = shapes->AddShape(valid_solid(layer_model(wheel, layer)), Standard_False);
+    TDataStd_Name::Set(body, TCollection_ExtendedString(layer.name.c_str(), Standard_True));
+    colours->SetColor(body, colour(k), XCAFDoc_ColorSurf);
+    expect_done(writer.Transfer(body, STEPControl_AsIs));
   }
-  shapes->UpdateAssemblies();
-  return document;
 }
 
 /// What a writer has converted, as text.
@@ -98,15 +92,15 @@ std::string text_of(STEPControl_Writer& writer, const WheelModel& wheel) {
 
 std::string file(const WheelModel& wheel) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
-  STEPCAFControl_Writer of_assembly;
-  STEPControl_Writer& writer = of_assembly.ChangeWriter();
+  STEPCAFControl_Writer of_layers;
+  STEPControl_Writer& writer = of_layers.ChangeWriter();
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   Interface_Static::SetCVal("write.step.unit", "MM");
   Interface_Static::SetCVal("write.step.product.name", wheel.title.c_str());
   if (wheel.layers.empty())
     expect_done(writer.Transfer(valid_solid(wheel), STEPControl_AsIs) == IFSelect_RetDone);
   else
-    expect_done(of_assembly.Transfer(assembly(wheel), STEPControl_AsIs));
+    add_layers(wheel, of_layers);
   return text_of(writer, wheel);
 }
 
