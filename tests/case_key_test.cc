@@ -69,8 +69,9 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
 
 TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
   const Objective j;
-  const auto& [minimize, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm, terms] = j;
-  expect_keys(j, minimize, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm);
+  const auto& [minimize, layer, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm,
+               terms] = j;
+  expect_keys(j, minimize, layer, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm);
   const Optimizer o;
   const auto& [method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
                redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation] = o;
@@ -88,11 +89,11 @@ TEST(CaseKey, EveryMemberOfAnArrayHasAKey) {
   expect_keys(l, name, weight, force, travel, along, torque, body, pressure, speed, ground, ground_radius,
               ground_height, ground_place, ground_profile);
   const Constraint b;
-  const auto& [bounded, at_least, at_most, equals, over, load_case] = b;
-  expect_keys(b, bounded, at_least, at_most, equals, over, load_case);
+  const auto& [bounded, layer, at_least, at_most, equals, over, load_case] = b;
+  expect_keys(b, bounded, layer, at_least, at_most, equals, over, load_case);
   const Expectation e;
-  const auto& [expected, value, margin, iteration, of_case] = e;
-  expect_keys(e, expected, value, margin, iteration, of_case);
+  const auto& [expected, of_layer, value, margin, iteration, of_case] = e;
+  expect_keys(e, expected, of_layer, value, margin, iteration, of_case);
 }
 
 TEST(CaseKey, EveryMemberOfAShapeHasAKey) {
@@ -139,8 +140,8 @@ TEST(CaseKey, EveryMemberOfADrawnShapeHasAKey) {
   const auto& [annulus_order, annulus_as, inner, outer] = a;
   expect_keys(a, annulus_as, inner, outer);
   const ObjectiveTerm t;
-  const auto& [quantity, weight] = t;
-  expect_keys(t, quantity, weight);
+  const auto& [quantity, layer, weight] = t;
+  expect_keys(t, quantity, layer, weight);
 }
 
 TEST(CaseKey, HasThePathOfTheFile) {

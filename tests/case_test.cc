@@ -243,7 +243,7 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
                  .annulus = 0.005,
                  .length = 0.02,
                  .mean = MeanStress::held,
-                 .terms = {{built_in("peak_pressure"), 0.25}}};
+                 .terms = {{.quantity = built_in("peak_pressure"), .weight = 0.25}}};
   c.optimizer.velocity = VelocityKind::harmonic;
   c.optimizer.rim_band = 0.006;
   c.optimizer.tread_band = 0.011;

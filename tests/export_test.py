@@ -494,6 +494,126 @@ def is_in_section(triangles, z, x, y):
     return crossings % 2 == 1
 
 
+LAYERED = """
+[wheel]
+sectors = 5
+[[material.layer]]
+name = "core"
+outer_radius = 0.23
+youngs_modulus = 2e9
+poissons_ratio = 0.3
+[[material.layer]]
+name = "tyre"
+inner_radius = 0.30
+youngs_modulus = 30e6
+poissons_ratio = 0.45
+[[holes.circle]]
+center = [0.27, 0.03]
+radius = 0.034
+[[holes.circle]]
+center = [0.15, 0.19]
+radius = 0.02
+[optimizer]
+rim_band = 0.005
+[grid]
+radial_cells = 28
+angular_cells = 400
+"""
+
+
+class Layers(unittest.TestCase):
+    """A wheel of three materials whose holes cross from one to another, without mirror symmetry."""
+
+    NAMES = ["core", "material", "tyre"]
+
+    @classmethod
+    def setUpClass(cls):
+        cls.case = temporary / "layered.toml"
+        cls.case.write_text(LAYERED)
+        cls.folder = temporary / "layered_export"
+        wheelwright("export", cls.case, "--format", ALL, "--by-layer", "--output", cls.folder)
+        cls.whole = cls.step("layered")
+
+    @classmethod
+    def step(cls, stem):
+        lines = subprocess.run([read_step, cls.folder / f"{stem}.step"], input="", capture_output=True, text=True,
+                               check=True).stdout.splitlines()
+        facts = dict(line.split(" ", 1) for line in lines if not line.startswith("body "))
+        facts["bodies"] = [line.split(" ", 5)[1:] for line in lines if line.startswith("body ")]
+        return facts
+
+    def test_step_has_a_named_valid_body_per_layer(self):
+        bodies = self.whole["bodies"]
+        self.assertEqual([name for *_, name in bodies], self.NAMES)
+        self.assertEqual(self.whole["valid"], "1")
+        for valid, _, solids, colour, name in bodies:
+            self.assertEqual((valid, solids), ("1", "1"), name)
+            self.assertNotEqual(colour, "none")
+        self.assertEqual(len({colour for _, _, _, colour, _ in bodies}), 3)
+
+    def test_the_bodies_add_up_to_the_wheel(self):
+        one = temporary / "one_material.toml"  # the same shape
+        one.write_text(re.sub(r"(?s)\[\[material.layer\]\].*?(?=\[\[(?!material))", "", LAYERED))
+        wheelwright("export", one, "--format", "step", "--output", self.folder)
+        volume = float(self.step("one_material")["volume"])
+        volumes = [float(body[1]) for body in self.whole["bodies"]]
+        self.assertAlmostEqual(sum(volumes) / volume, 1, delta=1e-6)
+        for of_layer, name in zip(volumes, self.NAMES):
+            alone = self.step(f"layered-{name}")
+            self.assertEqual(alone["valid"], "1")
+            self.assertAlmostEqual(float(alone["volume"]) / of_layer, 1, delta=1e-9)
+
+    def test_3mf_has_a_named_object_per_layer(self):
+        mesh = self.folder / "of_3mf.stl"
+        told = subprocess.run([read_3mf, self.folder / "layered.3mf", mesh], capture_output=True, text=True, check=True).stdout
+        self.assertIn("".join(f"object {name}\n" for name in self.NAMES), told)
+        self.assertIn("objects 3\nwarnings 0", told)
+        facts = admesh(mesh)
+        volume = float(self.whole["volume"])
+        self.assertAlmostEqual(facts["Volume"], volume, delta=2e-4 * volume)
+        self.assertEqual(facts["Number of parts"], 3)
+
+    def test_dxf_has_a_layer_per_layer(self):
+        drawing = ezdxf.readfile(self.folder / "layered.dxf")
+        self.assertFalse(drawing.audit().has_errors)
+        for name in self.NAMES:
+            self.assertIn(name, drawing.layers)
+            self.assertGreater(len(drawing.modelspace().query(f'*[layer=="{name}"]')), 1)
+        self.assertEqual({entity.dxf.layer for entity in drawing.modelspace()}, set(self.NAMES))
+
+    def test_svg_has_a_group_per_layer(self):
+        text = (self.folder / "layered.svg").read_text()
+        self.assertEqual(re.findall(r'inkscape:label="(\w+)"', text), self.NAMES)
+
+    def test_vtu_has_the_number_of_the_layer(self):
+        xml, data = (self.folder / "layered.vtu").read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
+        offset = int(re.search(rb'Name="material"[^>]*offset="(\d+)"', xml)[1])
+        size = struct.unpack_from("<Q", data, offset)[0]
+        numbers = struct.unpack_from(f"<{size // 4}i", data, offset + 8)
+        self.assertEqual(set(numbers), {0, 1, 2})
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        again = temporary / "layered_again"
+        wheelwright("export", self.case, "--format", ALL, "--by-layer", "--output", again)
+        for file in sorted(self.folder.glob("layered*")):
+            if file.name != "of_3mf.stl":
+                self.assertEqual(file.read_bytes(), (again / file.name).read_bytes(), file.name)
+
+    def test_files_by_layer_only_on_request(self):
+        folder = temporary / "layered_whole"
+        wheelwright("export", self.case, "--output", folder)
+        self.assertEqual(sorted(file.name for file in folder.glob("layered*")), ["layered.dxf", "layered.stl", "layered.svg"])
+
+    def test_spokes_end_at_a_band_without_a_skin(self):
+        case = temporary / "shear-band.toml"
+        wheelwright("init", case, "--preset", "shear-band")
+        folder = temporary / "shear_export"
+        wheelwright("export", case, "--format", "step,stl,3mf", "--by-layer", "--output", folder)
+        for name in ("material", "band", "tread"):
+            facts = admesh(folder / f"shear-band-{name}.stl")
+            self.assertEqual((facts["Number of parts"], facts["Degenerate facets"]), (1, 0), name)
+
+
 class Solid(unittest.TestCase):
     """A wheel in 3D without symmetry, whose holes are cylinders."""
 

@@ -230,9 +230,10 @@ TEST(VtuFile3D, FieldsMayJumpBetweenRows) {
   const std::size_t n_nodes = static_cast<std::size_t>(lattice.n_nodes()) * model.grid.n_sectors;
   std::vector<bool> is_odd_row(model.grid.cells[0], false);
   is_odd_row[1] = true;
+  const std::vector<int> layer_of_row(is_odd_row.begin(), is_odd_row.end());
   const NamedField layer{
       "layer", "1", {1, std::vector<double>(n_nodes, 0), is_odd_row, std::vector<double>(n_nodes, 1)}};
-  const std::string file = VtuMesh<3>(psi, lattice, 2, "m", is_odd_row).file({&layer, 1});
+  const std::string file = VtuMesh<3>(psi, lattice, 2, "m", layer_of_row).file({&layer, 1});
   const auto values = array_of<float>(file, "layer_1");
   const auto connectivity = array_of<std::int32_t>(file, "connectivity");
   const auto offsets = array_of<std::int32_t>(file, "offsets");

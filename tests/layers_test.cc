@@ -8,16 +8,26 @@
 #include <numbers>
 
 #include "tests/support.h"
+#include "wheelwright/cad/outline/check_outline.h"
+#include "wheelwright/cad/outline/cut_outline.h"
+#include "wheelwright/cad/outline/fit_outline.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/lu_factor.h"
+#include "wheelwright/output/page/sector_mesh.h"
+#include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
+#include "wheelwright/quantities/analysis/layer_results.h"
 #include "wheelwright/quantities/functionals/mass.h"
+#include "wheelwright/quantities/functionals/peak_von_mises.h"
+#include "wheelwright/quantities/functionals/quantities.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
 #include "wheelwright/run/study/case_report.h"
 #include "wheelwright/run/study/layer_shapes.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/components.h"
 
 namespace wheelwright {
 namespace {
@@ -195,6 +205,78 @@ TEST(Layers, ShapeGradientPassesTheTaylorTest) {
     }
 }
 
+/// The quantities of a layer, where holes cross from one to another. In the norm of the peak the correction
+/// is held, as the gradient takes it.
+TEST(Layers, QuantitiesOfOneLayerPassTheTaylorTest) {
+  for (const double contrast : {0.02, 50.0}) {
+    auto model = paper_model(14, 192);
+    model.n_positions = 3;
+    model.contact.friction = 0.3;
+    model.horizontal_force = 0.1 * model.load;
+    model.materials = layered<2>(
+        {{0.27, {200e6 * contrast, 0.4, Plane::strain, 8000}}, {0.34, {200e6, 0.3, Plane::strain, 1100}}});
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    for (const PartOfRing& part : {PartOfRing{"core", 0.20, 0.27}, PartOfRing{"tyre", 0.27, 0.34}})
+      for (const WeightedSum<2>& terms :
+           {WeightedSum<2>{
+                {1e-6, std::make_shared<PeakVonMises<2>>(0, PeakNorm{.exponent = 4, .correction = 1}, part)}},
+            WeightedSum<2>{{1, std::make_shared<Mass<2>>(model.materials, part)}}}) {
+        SCOPED_TRACE(terms.front().functional->name());
+        const auto test = testing::generic_taylor_test(*problem, terms);
+        ASSERT_TRUE(test) << test.failure().detail;
+        for (const double order : test->orders) EXPECT_GT(order, 1.9) << contrast;
+      }
+  }
+}
+
+/// Peaks and masses of the layers: the larger is that of the ring, the sum is that of the ring, and a
+/// functional of one layer sees what its results say.
+TEST(Layers, HaveResultsOfTheirOwn) {
+  auto model = paper_model(14, 192);
+  model.n_positions = 3;
+  model.contact.friction = 0.3;
+  model.horizontal_force = 0.1 * model.load;
+  model.materials =
+      layered<2>({{0.27, {2e9, 0.3, Plane::strain, 8000}}, {0.34, {200e6, 0.4, Plane::strain, 1100}}});
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const LevelSet<2> psi = generic_hole(model.grid);
+  const auto states = problem->states(psi, problem->all_positions(), Interrupt());
+  ASSERT_TRUE(states) << states.failure().detail;
+  const auto& state = *states;
+  const auto layers = layer_results<2>(*problem, *state);
+  ASSERT_EQ(layers.size(), 2u);
+  EXPECT_EQ(std::max(layers[0].peak_von_mises, layers[1].peak_von_mises),
+            std::ranges::max(state->strain_peaks().von_mises));
+  EXPECT_EQ(std::max(layers[0].largest_strain, layers[1].largest_strain),
+            std::ranges::max(state->strain_peaks().principal));
+  EXPECT_LT(layers[0].peak_place[0], 0.27);
+  EXPECT_GT(layers[1].peak_place[0], 0.27);
+  const double mean = mean_density(model.materials, psi).value();
+  EXPECT_NEAR((*layers[0].mass + *layers[1].mass) / (mean * material_measure(psi) * model.grid.n_sectors), 1,
+              1e-12);
+  const PartOfRing parts[] = {{"core", 0.20, 0.27}, {"tyre", 0.27, 0.34}};
+  for (const int k : {0, 1}) {
+    const auto value = [&](std::string_view quantity) {
+      const auto term = functional_of<2>(in_part(built_in(quantity), parts[k]), Over::maximum, {*problem});
+      return term->functional->evaluate(*problem, psi, *state, {});
+    };
+    EXPECT_NEAR(value("mass").of_shape / *layers[k].mass, 1, 1e-12);
+  }
+  // The p-th powers of the norms add up to that of the ring, and the larger peak is that of the ring.
+  for (const PeakNorm& norm : {PeakNorm{.correction = 1}, PeakNorm()}) {
+    const auto values = [&](const std::optional<PartOfRing>& part) {
+      return PeakVonMises<2>(0, norm, part).evaluate(*problem, psi, *state, {}).by_position;
+    };
+    const auto core = values(parts[0]), tyre = values(parts[1]), ring = values({});
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      EXPECT_NEAR(norm.correction ? std::pow(core[i] / ring[i], 16) + std::pow(tyre[i] / ring[i], 16)
+                                  : std::max(core[i], tyre[i]) / ring[i],
+                  1, 1e-12);
+  }
+}
+
 /// A wheel with a hole across the interface on finer and finer grids.
 TEST(Layers, WithAHoleAcrossThemConverge) {
   double energies[3];
@@ -352,6 +434,73 @@ TEST(Layers, WithoutHolesStaySolid) {
   }
 }
 
+/// Holes of a saved shape in a layer at the rim that has none are not lost on the grid.
+TEST(Layers, WithoutHolesAtTheRimDoNotBlameTheGrid) {
+  const auto open = layered_case(
+      "",
+      "[[holes.ring]]\ncount = 16\ncenter_radius = 0.0625\nradius = 0.005\n[[holes.ring]]\ncount = 16\n"
+      "center_radius = 0.08\nradius = 0.006\n");
+  auto solid = layered_case(
+      "[[material.layer]]\nouter_radius = 0.07\nyoungs_modulus = 9e8\npoissons_ratio = 0.4\nholes = "
+      "\"none\"\n");
+  ASSERT_TRUE(open.value && solid.value);
+  Case& c = *solid.value;
+  c.saved_shape.shape.contents = std::make_shared<SavedLevelSet>(initial_shape<2>(*open.value));
+  EXPECT_TRUE(lost_on_the_grid<2>(c).empty());
+  EXPECT_EQ(components(initial_shape<2>(c)).all.size(), 2u);  // the material and a hole
+}
+
+double length(const std::vector<Vec<2>>& points, const std::vector<std::uint32_t>& pairs) {
+  double sum = 0;
+  for (std::size_t k = 0; k < pairs.size(); k += 2) sum += distance(points[pairs[k]], points[pairs[k + 1]]);
+  return sum;
+}
+
+/// Pictures draw the edges of a mesh on the circle between two layers, as far as there is material.
+TEST(Layers, MeetAtTheEdgesThatPicturesDraw) {
+  auto model = paper_model(14, 192);
+  model.materials = layered<2>({{0.27, {200e6, 0.3}}, {0.34, {10e6, 0.45}}});
+  const SectorMesh whole = sector_mesh(full(model.grid), model);
+  EXPECT_NEAR(length(whole.points, whole.layer_edges) * model.grid.n_sectors / (2 * pi * 0.27), 1, 1e-3);
+  const SectorMesh mesh = sector_mesh(generic_hole(model.grid), model);
+  EXPECT_GT(length(mesh.points, mesh.layer_edges), 0);
+  EXPECT_LT(length(mesh.points, mesh.layer_edges), 0.9 * length(whole.points, whole.layer_edges));
+  for (const std::uint32_t end : mesh.layer_edges) {
+    EXPECT_NEAR(norm(mesh.points[end]), 0.27, 1e-5);
+    EXPECT_EQ(mesh.rows[end], 6);
+  }
+}
+
+/// A surface has separate vertices for the layers, so that fields jump, and lines around both side faces.
+TEST(Layers, HaveSeparateVerticesOnSurfaces) {
+  const PolarGrid<3> grid{0.20, 0.34, 0.12, 8, {14, 12, 4}};
+  const LevelSet<3> psi = [&] {
+    LevelSet<3> ring{Lattice<3>(grid, 1), {}};
+    ring.values.assign(ring.lattice.n_nodes(), -0.01);
+    return ring;
+  }();
+  const SurfaceMesh mesh = material_surface(psi, 2, 2);
+  const LayeredSurface layered = layered_surface(mesh, grid, {0.27});
+  EXPECT_EQ(layered.triangles.size(), mesh.triangles.size());
+  EXPECT_NEAR(enclosed_volume(layered), enclosed_volume(mesh), 1e-15);
+  EXPECT_EQ(layered.points.size(), mesh.points.size() + 8 * 2 * 24);  // the vertices on two circles
+  double sum = 0;
+  for (const auto& [a, b] : layered.layer_edges) {
+    sum += norm<3>(layered.points[b] - layered.points[a]);
+    EXPECT_NEAR(std::hypot(layered.points[a][0], layered.points[a][1]), 0.27, 1e-4);
+  }
+  EXPECT_NEAR(sum / (2 * 2 * pi * 0.27), 1, 1e-3);
+  for (const auto& triangle : layered.triangles) {
+    int inside = 0, outside = 0;
+    for (const int vertex : triangle) {
+      const CellPoint& place = layered.places[vertex % layered.sector_points()];
+      inside += place.cell[0] < 7;
+      outside += place.cell[0] >= 7;
+    }
+    EXPECT_TRUE(inside == 0 || outside == 0);
+  }
+}
+
 /// The parts of a shape make up the whole, also where a hole crosses from one to another.
 TEST(Layers, AreShapesOfTheirOwn) {
   const auto result = layered_case(
@@ -370,6 +519,79 @@ TEST(Layers, AreShapesOfTheirOwn) {
   for (const LayerShape<2>& part : parts) sum += material_measure(part.shape);
   EXPECT_NEAR(sum / material_measure(whole), 1, 1e-12);
   EXPECT_LT(material_measure(parts[1].shape), sector_measure<2>(parts[1].shape.lattice.grid()));
+}
+
+/// Holes end a thousandth of a cell before a layer without holes, which would leave a skin beside it.
+TEST(Layers, AreCutOnTheSideOfTheHolesThatEndAtThem) {
+  const auto result = parse_case(
+      "[wheel]\ninner_radius = 0.05\nouter_radius = 0.1\nwidth = 0.05\nsectors = 8\n[load]\nforce = 500\n"
+      "[material]\nyoungs_modulus = 60e6\n[[material.layer]]\nouter_radius = 0.06\nyoungs_modulus = 9e8\n"
+      "poissons_ratio = 0.4\n[[material.layer]]\ninner_radius = 0.07\nouter_radius = 0.08\n"
+      "youngs_modulus = 900e6\npoissons_ratio = 0.4\nholes = \"none\"\n[[holes.ring]]\ncount = 8\n"
+      "center_radius = 0.075\nradius = 0.012\n[grid]\nradial_cells = 20\nangular_cells = 160\n"
+      "[optimizer]\ntread_band = 0.005\n",
+      "layer.toml");
+  ASSERT_TRUE(result.value) << result.problems.front().text();
+  constexpr double tolerance = 1e-5;
+  const double apart = 0.001 * polar_grid<2>(*result.value).resolution() + 2 * tolerance;
+  const auto radii = cutting_radii(*result.value, tolerance);
+  ASSERT_EQ(radii.size(), 3u);
+  EXPECT_NEAR(radii[0], 0.06, 1e-15);
+  EXPECT_NEAR(radii[1], 0.07 - apart, 1e-15);
+  EXPECT_NEAR(radii[2], 0.08 + apart, 1e-15);
+  const auto whole = cad::fit_outline(initial_shape<2>(*result.value), tolerance);
+  ASSERT_TRUE(whole) << whole.failure().what;
+  const auto parts = cad::cut_by_circles(*whole, radii);
+  ASSERT_TRUE(parts) << parts.failure().what;
+  double sum = 0;
+  for (const cad::Outline& part : *parts) {
+    EXPECT_TRUE(cad::crossing_faults(part, tolerance).empty());
+    sum += cad::material_area(part);
+  }
+  EXPECT_NEAR(sum / cad::material_area(*whole), 1, 1e-12);
+  // Not cut there, the holes leave skins beside the layer.
+  const auto with_skins = cad::cut_by_circles(*whole, {0.06, 0.07, 0.08});
+  ASSERT_TRUE(with_skins);
+  EXPECT_FALSE(cad::crossing_faults((*with_skins)[1], tolerance).empty());
+}
+
+TEST(Layers, AreNamedByBoundsTermsAndExpectations) {
+  const std::string tyre =
+      "[[material.layer]]\nname = \"tyre\"\ninner_radius = 0.09\nyoungs_modulus = 9e6\n"
+      "poissons_ratio = 0.4\ndensity = 1100\n";
+  const auto good =
+      layered_case(tyre,
+                   "[[constraint]]\nquantity = \"peak_von_mises\"\nlayer = \"tyre\"\nat_most = 3e5\n"
+                   "[[constraint]]\nquantity = \"peak_von_mises\"\nlayer = \"material\"\nat_least = 4e5\n"
+                   "[[objective.term]]\nquantity = \"mass\"\nlayer = \"tyre\"\nweight = 2\n");
+  ASSERT_TRUE(good.value) << good.problems.front().text();
+  const Case& c = *good.value;
+  EXPECT_EQ(name(quantity_of(c, c.constraints[0])), "peak_von_mises of tyre");
+  EXPECT_FALSE(quantity_of(c, c.constraints[0]) == quantity_of(c, c.constraints[1]));
+  const Quantity mass = quantity_of(c, c.objective.terms[0]);
+  EXPECT_EQ(number_key(mass, 2), "mass_kg of tyre");
+  EXPECT_EQ(mass->part->inner, 0.09);
+  EXPECT_FALSE(holds_volume(c));
+
+  const auto refuses = [&](const std::string& table, const std::string& key) {
+    const auto result = layered_case(tyre, table);
+    EXPECT_FALSE(result.value) << table;
+    if (result.problems.empty()) return std::string();
+    EXPECT_EQ(result.problems.front().key, key) << result.problems.front().text();
+    return result.problems.front().text();
+  };
+  const auto bound = [](const std::string& quantity, const std::string& layer) {
+    return "[[constraint]]\nquantity = \"" + quantity + "\"\nlayer = \"" + layer + "\"\nat_most = 3\n";
+  };
+  const std::string text = refuses(bound("peak_von_mises", "tyer"), "constraint[1].layer");
+  EXPECT_NE(text.find("material, tyre"), std::string::npos) << text;
+  refuses(bound("stiffness", "tyre"), "constraint[1].layer");
+  refuses(bound("mass", "material"), "constraint[1].quantity");  // without a density
+  refuses(bound("peak_von_mises", "tyre") +
+              "[[constraint]]\nquantity = \"peak_von_mises\"\nlayer = \"tyre\"\nat_least = 4\n",
+          "constraint[2].at_least");
+  refuses("[objective]\nlayer = \"tyre\"\n", "objective.layer");
+  refuses("[[expect]]\nquantity = \"largest_strain\"\nlayer = \"tire\"\nvalue = 1\n", "expect[1].layer");
 }
 
 TEST(Layers, ThatCannotBeAreRefusedByKey) {
@@ -394,6 +616,14 @@ TEST(Layers, ThatCannotBeAreRefusedByKey) {
   refuses("[[material.layer]]\ninner_radius = 0.09\nyoungs_modulus = 3e6\npoissons_ratio = 0.499995\n",
           "material.layer[1].poissons_ratio");
   refuses(layer + "inner_radius = 0.09\n[objective]\nminimize = \"mass\"\n", "objective.minimize");
+  const auto contrast = layered_case(
+      "[[material.layer]]\nname = \"hub\"\nouter_radius = 0.06\nyoungs_modulus = 1e12\npoissons_ratio = 0.3\n"
+      "[[material.layer]]\ninner_radius = 0.07\nouter_radius = 0.08\nyoungs_modulus = 1e2\npoissons_ratio = "
+      "0.3\n");
+  EXPECT_TRUE(std::ranges::any_of(contrast.problems, [](const Diagnostic& problem) {
+    return problem.key == "material.layer[1].youngs_modulus" &&
+           problem.text().find("hub is 1e+10 times as stiff as layer 2") != std::string::npos;
+  }));
 }
 
 }  // namespace

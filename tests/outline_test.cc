@@ -7,6 +7,7 @@
 #include "tests/support.h"
 #include "wheelwright/cad/outline/check_outline.h"
 #include "wheelwright/cad/outline/clearance.h"
+#include "wheelwright/cad/outline/cut_outline.h"
 #include "wheelwright/cad/outline/fit_outline.h"
 #include "wheelwright/cad/outline/spline_fit.h"
 #include "wheelwright/cad/outline/triangulation.h"
@@ -388,6 +389,76 @@ TEST_F(BrokenOutline, MovedMissingAndAdditionalLoops) {
   outline = sound;
   outline.loops.push_back({LoopKind::hole, {circle(0.21, 0.11, 0.003, -2 * pi)}});
   EXPECT_NE(faults().find("curve and contour are"), std::string::npos) << faults();
+}
+
+/// The part is the curve itself, at the parameters of the part.
+TEST(CutOutline, ASplineIsCutExactly) {
+  for (const Curve& curve : sample_curves())
+    for (const auto& [s0, s1] : {std::pair{0.0, 0.13}, {0.05, 0.19}, {0.1, 0.9}, {0.2, 0.7}, {0.31, 1.0}}) {
+      const Curve piece = part(curve, s0, s1);
+      for (const double t : {0.0, 0.21, 0.5, 0.83, 1.0}) {
+        const auto [place, velocity] = at(piece, t);
+        const auto whole = at(curve, s0 + t * (s1 - s0));
+        EXPECT_LT(distance(place, whole.position), 1e-14 * 5) << t;
+        EXPECT_LT(distance(velocity, (s1 - s0) * whole.velocity), 1e-12) << t;
+      }
+    }
+}
+
+/// Checks that every curve starts where the last one ends and that the material is on the left of all.
+void expect_closed_and_oriented(const Outline& outline, const LevelSet<2>& psi, double inner, double outer) {
+  for (const Loop& loop : outline.loops) {
+    const Curve* before = &loop.curves.back();
+    for (const Curve& curve : loop.curves) {
+      EXPECT_LT(distance(start_of(curve), end_of(*before)), 1e-9 * 0.34);
+      before = &curve;
+      const auto [place, velocity] = at(curve, 0.4);
+      if (norm(velocity) < 1e-4) continue;
+      const Vec<2> inside = place + 2e-4 / norm(velocity) * Vec<2>{-velocity[1], velocity[0]};
+      EXPECT_GT(norm(inside), inner);
+      EXPECT_LT(norm(inside), outer);
+      EXPECT_LT(ZeroContour(psi).at(inside).psi, 0) << place_of(place);
+    }
+  }
+}
+
+/// Holes across one circle, across two, and across none; circles through smooth holes and through spokes.
+TEST(CutOutline, PartsAreClosedAndAddUp) {
+  for (const auto& radii : {std::vector{0.27}, {0.245, 0.29}, {0.2661, 0.2662, 0.31}, {0.21}})
+    for (const LevelSet<2>& psi :
+         {holes(wheel(7), 2, different_holes), crooked_hole(wheel(8), 2), crooked_hole(wheel(1), 2)}) {
+      SCOPED_TRACE(radii.front());
+      const Outline whole = outline_of(psi);
+      const auto parts = cut_by_circles(whole, radii);
+      ASSERT_TRUE(parts) << parts.failure().what;
+      ASSERT_EQ(parts->size(), radii.size() + 1);
+      double sum = 0;
+      for (std::size_t k = 0; k < parts->size(); ++k) {
+        const double inner = k == 0 ? 0.20 : radii[k - 1], outer = k < radii.size() ? radii[k] : 0.34;
+        if (outer - inner > 1e-3) expect_closed_and_oriented((*parts)[k], psi, inner, outer);
+        sum += material_area((*parts)[k]);
+        int n_bodies = 0;
+        for (const Body& body : bodies((*parts)[k])) n_bodies += signed_area(*body.edge) > 0;
+        EXPECT_GT(n_bodies, 0);
+        for (const Loop& loop : (*parts)[k].loops)
+          EXPECT_EQ(signed_area(loop) > 0,
+                    loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::island);
+      }
+      EXPECT_NEAR(sum / material_area(whole), 1, 1e-12);
+    }
+}
+
+/// Circles through round holes cut segments of circles from the ring.
+TEST(CutOutline, PartsHaveTheExactAreas) {
+  const double r = 0.03, at_radius = 0.27;
+  const LevelSet<2> psi = holes(wheel(8), 2, {{at_radius, 0.3, r}});
+  const auto parts = cut_by_circles(outline_of(psi), {at_radius});
+  ASSERT_TRUE(parts);
+  // The lens of a circle and a larger one through its middle.
+  const double a = std::acos(r / (2 * at_radius)), b = std::acos(1 - r * r / (2 * at_radius * at_radius));
+  const double lens = r * r * a + at_radius * at_radius * b - at_radius * r * std::sin(a);
+  EXPECT_NEAR(material_area((*parts)[0]), pi * (at_radius * at_radius - 0.2 * 0.2) - 8 * lens, 1e-6);
+  EXPECT_EQ((*parts)[0].loops.size(), 2u);
 }
 
 TEST(Triangulation, CoversTheRegionAndFindsCrossings) {

@@ -1,5 +1,5 @@
-// Reads a 3MF file with lib3mf, prints its unit, 0 for a micrometre to 5 for a metre, and the number of its
-// objects, and writes what it holds as an STL file.
+// Reads a 3MF file with lib3mf, prints its unit, 0 for a micrometre to 5 for a metre, and the number and
+// the names of its objects, and writes what it holds as an STL file.
 // usage: read_3mf FILE STL_FILE
 
 #include <Model/COM/NMR_DLLInterfaces.h>
@@ -30,6 +30,13 @@ int main(int, char** argv) {
   do {
     ++n_objects;
     check(lib3mf_resourceiterator_movenext(objects, &next), "next");
+    if (!next) break;
+    PLib3MFModelResource* object;
+    char name[100];
+    ULONG length = 0;
+    check(lib3mf_resourceiterator_getcurrent(objects, &object), "object");
+    check(lib3mf_object_getnameutf8(object, name, sizeof name, &length), "name");
+    std::cout << "object " << name << "\n";
   } while (next);
   check(lib3mf_model_querywriter(model, "stl", &writer), "writer");
   check(lib3mf_writer_writetofileutf8(writer, argv[2]), "write");

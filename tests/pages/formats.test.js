@@ -89,3 +89,8 @@ test("a scale that ends below the peak names it", () => {
   assert.equal(last(2.456), "1.9, up to 2.46 MPa");
   for (const peak of [1.9, 1.9001, 1.5, undefined]) assert.equal(last(peak), "1.9 MPa");
 });
+
+test("lines in pictures are explained for wheels with layers", () => {
+  assert.equal(formats.layersText(undefined), "");
+  assert.match(formats.layersText({ names: ["core", "tyre"] }), / core, tyre\.$/);
+});

@@ -40,6 +40,14 @@ test("quantities without a value or a label have no row, and the others keep the
   assert.deepEqual(frameChanges.numberRows(frame, numbers, 0).map(({ id }) => id), ["volume", "travel", "peak_von_mises_Pa"]);
 });
 
+test("numbers of layers have rows with the layer's name", () => {
+  const key = "peak_von_mises_Pa of tyre", rows = [...numbers.rows, { key, unit: "MPa", factor: 1e-6 }];
+  const of = { ...numbers, rows, now: { ...numbers.now, [key]: 4e6 }, before: { ...numbers.before, [key]: 5e6 } };
+  const row = rowsById(frame, of, 0)["peak_von_mises_Pa_of_tyre"];
+  assert.equal(row.name, "peak stress of tyre");
+  near(row.now, 4);
+});
+
 test("a quantity that only the initial shape has keeps its row", () => {
   const { now } = numbers, rest = { ...now };
   delete rest.peak_von_mises_Pa;

@@ -127,3 +127,14 @@ test("a wheel without displacement has no coloured displacement", () => {
   const { fields } = solidRun(3, 0.2, 0.3, 0.1), positions = meshes.surfacePositions(fields).slice(1);
   assert.equal(meshes.colourings(fields, positions).displacement.share(positions[0], 0), 0);
 });
+
+test("edges between layers are repeated in every sector, and those across its end begin the next one", () => {
+  const plane = planeRun(3, 0.2, 0.3);
+  assert.equal(meshes.layerEdges(plane).length, 0);
+  plane.fields.layer_edges = encoded(new Uint32Array([0, 3]));
+  assert.deepEqual([...meshes.layerEdges(plane)], [0, 3, 4, 7, 8, 11]);
+  const solid = solidRun(3, 0.2, 0.3, 0.1);
+  solid.fields.is_surface = true;
+  solid.fields.layer_edges = encoded(new Uint32Array([0, 4]));
+  assert.deepEqual([...meshes.layerEdges(solid)], [0, 4, 4, 8, 8, 0]);
+});

@@ -164,6 +164,13 @@ test("answers are in practical units", () => {
   assert.equal(numbersIn(answerTo(answered, "change"))[0], -50);
 });
 
+test("the peak stress of each layer is told with its place", () => {
+  const after = { ...wheel, "peak_von_mises_Pa of tyre": 1e6, "peak_von_mises_place of tyre": { radius_m: 0.3, azimuth_rad: 0 } };
+  const run = { ...answered, layers: { names: ["core", "tyre"] }, summary: { before: wheel, after } };
+  assert.deepEqual(numbersIn(answerTo(run, "stress")), [3, 250, 30, 1, 300, 0]);
+  assert.match(answerTo(run, "stress"), /tyre: /);
+});
+
 test("the volume is that of the ring times its fraction", () => {
   const [volume, percents] = numbersIn(answerTo(answered, "volume"));
   assert.ok(Math.abs(volume - 1e6 * 0.5 * Math.PI * (0.09 - 0.04) * 0.1) < 0.1);

@@ -42,20 +42,32 @@ std::vector<std::string> words(const std::string& text) {
   return parts;
 }
 
+/// The part of a word before " of ", which names a quantity of a layer.
+std::string_view quantity_in(std::string_view word) { return word.substr(0, word.find(" of ")); }
+
 std::string check_quantities(const std::string& text) {
   std::vector<std::string_view> known;
   for (const RankedQuantity& quantity : ranked_quantities()) known.push_back(quantity.word);
   for (const std::string& word : words(text))
-    if (!find_quantity(word)) return fmt::format("'{}' is none of {}", word, fmt::join(known, ", "));
+    if (!find_quantity(quantity_in(word)))
+      return fmt::format("'{}' is none of {}", word, fmt::join(known, ", "));
   return "";
 }
 
+/// Why designs of a case are not ranked by a word that may be one of others.
+std::string fault_of_word(const std::string& word, const std::vector<RankedQuantity>& known) {
+  if (word == "mass") return "the mass needs the density of every material; use volume, or set density";
+  std::vector<std::string_view> words;
+  for (const RankedQuantity& quantity : known) words.push_back(quantity.word);
+  return fmt::format("'{}' is none of {}", word, fmt::join(words, ", "));
+}
+
 /// The ranked quantity that corresponds to the minimized one.
-std::string_view word_of_minimized(const Quantity& minimized) {
-  if (minimized == built_in("volume_fraction")) return "mass";
-  if (minimized == built_in("peak_von_mises") || minimized == built_in("peak_von_mises_inside"))
-    return "peak_stress";
-  return find_quantity(name(minimized)) ? std::string_view(name(minimized)) : "stiffness";
+const RankedQuantity* ranked_as_minimized(const Case& c, const std::vector<RankedQuantity>& known) {
+  Quantity minimized = minimized_quantity(c);
+  if (minimized == built_in("peak_von_mises_inside")) minimized = built_in("peak_von_mises");
+  const auto found = std::ranges::find(known, number_key(minimized, 2), &RankedQuantity::key);
+  return found == known.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -77,19 +89,24 @@ void DesignOptions::declare(Options& options) {
   add_threads(options, threads);
 }
 
-std::vector<RankedQuantity> DesignOptions::chosen_quantities(const Case& c) const {
-  const bool has_mass = !c.layers.empty() && all_have_density(c);
+Expected<std::vector<RankedQuantity>, std::string> DesignOptions::chosen_quantities(const Case& c) const {
+  const std::vector<RankedQuantity> known = ranked_quantities(c);
   const auto of_word = [&](std::string_view word) {
-    return word == "mass" && has_mass ? ranked_mass() : *find_quantity(word);
+    return std::ranges::find(known, word, &RankedQuantity::word);
   };
   std::vector<RankedQuantity> chosen;
   if (quantities) {
-    for (const std::string& word : words(*quantities)) chosen.push_back(of_word(word));
+    for (const std::string& word : words(*quantities)) {
+      const auto found = of_word(word);
+      if (found == known.end()) return fault_of_word(word, known);
+      chosen.push_back(*found);
+    }
     return chosen;
   }
-  chosen.push_back(of_word(word_of_minimized(c.objective.minimize)));
+  const RankedQuantity* minimized = ranked_as_minimized(c, known);
+  chosen.push_back(minimized ? *minimized : *of_word("stiffness"));
   const std::string_view evenness = c.load.travel ? "force_variation" : "run_out";
-  if (chosen.front().word != evenness) chosen.push_back(of_word(evenness));
+  if (chosen.front().word != evenness) chosen.push_back(*of_word(evenness));
   return chosen;
 }
 
@@ -98,14 +115,15 @@ int DesignOptions::n_threads() const {
 }
 
 DesignSession::DesignSession(std::string name, fs::path folder, const DesignOptions& options, const Case& c,
-                             const Signals& signals, std::string settings)
+                             const Signals& signals, std::vector<RankedQuantity> quantities,
+                             std::string settings)
     : name_(std::move(name)),
       folder_(std::move(folder)),
       options_(options),
       case_(c),
       signals_(signals),
       settings_(std::move(settings)),
-      quantities_(options.chosen_quantities(c)) {}
+      quantities_(std::move(quantities)) {}
 
 bool DesignSession::may_begin() {
   const std::string csv = name_ + ".csv", json = name_ + ".json", html = name_ + ".html";

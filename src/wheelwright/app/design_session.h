@@ -27,7 +27,8 @@ struct DesignOptions {
 
   /// The quantities named by --for. Default: what the case minimizes, if it is one of them, or else
   /// stiffness; and run-out, or the radial force variation if the travel is prescribed.
-  std::vector<RankedQuantity> chosen_quantities(const Case& c) const;
+  /// Fails, in words, if --for names one that the case does not have.
+  Expected<std::vector<RankedQuantity>, std::string> chosen_quantities(const Case& c) const;
   int n_threads() const;
 };
 
@@ -36,10 +37,11 @@ class DesignSession {
  public:
   using Work = std::function<std::vector<RatedDesign>(const RunSettings&)>;
 
-  /// `name` is the name of the files: explore or sweep. `settings` is everything that determines the designs,
-  /// as text. The time of --seconds starts now. `signals` must outlive this.
+  /// `name` is the name of the files: explore or sweep. By `quantities` designs are ranked. `settings` is
+  /// everything that determines the designs, as text. The time of --seconds starts now. `signals` must
+  /// outlive this.
   DesignSession(std::string name, std::filesystem::path folder, const DesignOptions& options, const Case& c,
-                const Signals& signals, std::string settings);
+                const Signals& signals, std::vector<RankedQuantity> quantities, std::string settings);
 
   /// Whether the folder is free or contains this session, which then continues. Locks the folder for the
   /// lifetime of this object. Otherwise prints why: the command ends with exit_refused. Throws OutputError.

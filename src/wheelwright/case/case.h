@@ -341,6 +341,7 @@ enum class OverPositions {
 /// A term of the weighted sum besides those that have a key for their weight.
 struct ObjectiveTerm {
   Quantity quantity = {};
+  std::string layer = {};  ///< of which it is; empty: of the whole ring
   double weight = 1;
   bool operator==(const ObjectiveTerm&) const = default;
 };
@@ -348,6 +349,7 @@ struct ObjectiveTerm {
 /// Weights of the functionals in J, and parameters of the functionals.
 struct Objective {
   Quantity minimize = {};  ///< by default the sum with the weights below
+  std::string layer = {};  ///< of which the minimized quantity is; empty: of the whole ring
   OverPositions over = OverPositions::mean;
   double strain_energy = 1;
   double uniformity_annulus = 0;               ///< alpha_1 of J_p1
@@ -365,6 +367,7 @@ struct Objective {
 /// Bounds of a quantity.
 struct Constraint {
   Quantity quantity = {};
+  std::string layer = {};  ///< of which it is; empty: of the whole ring
   std::optional<double> at_least = {}, at_most = {}, equals = {};
   OverPositions over = OverPositions::mean;
   std::string load_case = {};  ///< empty: every one
@@ -438,6 +441,7 @@ struct Output {
 /// The expected value of one quantity at one accepted shape.
 struct Expectation {
   Quantity quantity = {};
+  std::string layer = {};        ///< of which it is; empty: of the whole ring
   double value = 0;              ///< in the unit of history.csv
   double margin = 0.01;          ///< relative to the value
   std::optional<int> iteration;  ///< number of the accepted shape; absent: the last one

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/quantity_needs.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/shown_value.h"
@@ -44,7 +45,7 @@ std::optional<OneBound> upper_bound(const Case& c, std::size_t i) {
 /// Finds contradictory bounds of one quantity in two tables.
 void check_bounds_together(const Case& c, Conflicts& found) {
   const auto meet = [&](const Constraint& a, const Constraint& b) {
-    return a.quantity == b.quantity &&
+    return quantity_of(c, a) == quantity_of(c, b) &&
            (a.load_case.empty() || b.load_case.empty() || a.load_case == b.load_case);
   };
   const auto check = [&](const std::optional<OneBound>& lower, const std::optional<OneBound>& upper,
@@ -105,7 +106,7 @@ void check_quantity(const Case& c, std::size_t i, Conflicts& found) {
     found.push_back({{quantity}, "the optimizer has no derivative of it", remedy});
   const auto loads = single_loads(c, load_cases_of(c, constraint));
   check_loads(loads, found, [&](const SingleLoad& single, Conflicts& of_case) {
-    for (const Need& need : unmet_needs(single, constraint.quantity))
+    for (const Need& need : unmet_needs(single, quantity_of(c, constraint)))
       of_case.push_back({{quantity, need.key}, need.problem, "change that key, or bound another quantity"});
     if (const auto constant = constancy(single, constraint.quantity))
       of_case.push_back(

@@ -223,12 +223,9 @@ PolarGrid<dim> polar_grid(const Case& c) {
 template decltype(polar_grid<2>) polar_grid<2>;
 template decltype(polar_grid<3>) polar_grid<3>;
 
-namespace {
-
-/// The annuli of the layers without holes, from the rim to the tread; neighbours are one.
 std::vector<SolidAnnulus> solid_layers(const Case& c) {
   std::vector<SolidAnnulus> result;
-  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
+  for (const auto& [name, inner, outer, material, layer] : placed_materials(c)) {
     if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
     if (!result.empty() && inner <= result.back().outer)
       result.back().outer = outer;
@@ -237,8 +234,6 @@ std::vector<SolidAnnulus> solid_layers(const Case& c) {
   }
   return result;
 }
-
-}  // namespace
 
 Bands bands(const Case& c) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;

@@ -118,6 +118,9 @@ double characteristic_length(const Case& c);
 template <int dim>
 PolarGrid<dim> polar_grid(const Case& c);
 
+/// The annuli of the layers without holes, from the rim to the tread; neighbours are one.
+std::vector<SolidAnnulus> solid_layers(const Case& c);
+
 /// The bands that stay material. By default they are 1/14 of the ring's thickness, whatever the grid; at the
 /// tread also at least 1/28 of it thicker than the annulus of J_p1. The outermost rows of cells must be full
 /// because they are condensed once per run, and the row below them because it carries the ghost penalty of

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/quantity_needs.h"
 #include "wheelwright/case/section_conflicts.h"
@@ -21,7 +22,8 @@ void expectation_conflicts(const Case& c, Conflicts& found) {
       found.push_back({{quantity, key_of(term->weight)},
                        "it has no weight in the objective, so the run does not compute it",
                        "set a weight, however small, or expect another quantity"});
-    for (const Need& need : unmet_needs(single_loads(c)[load_case_of(c, expectation)], expectation.quantity))
+    for (const Need& need :
+         unmet_needs(single_loads(c)[load_case_of(c, expectation)], quantity_of(c, expectation)))
       found.push_back({{quantity, need.key}, need.problem, "change that key, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
       found.push_back({{key_of(&Expectation::iteration, i), key_of(&Optimizer::iterations)},

@@ -1,5 +1,7 @@
 #include "wheelwright/case/layers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -120,29 +122,56 @@ std::string name_of_layer(const Case& c, std::size_t layer) {
 }
 
 std::vector<PlacedMaterial> placed_materials(const Case& c) {
+  const char* own_name = "material";
   if (c.layers.empty())
-    return {{c.wheel.inner_radius, c.wheel.outer_radius, material_of(c, {}), std::nullopt}};
+    return {{own_name, c.wheel.inner_radius, c.wheel.outer_radius, material_of(c, {}), std::nullopt}};
   std::vector<PlacedMaterial> result;
+  int n_rests = 0;
   double radius = c.wheel.inner_radius;
   const double least = 1e-9 * c.wheel.outer_radius;
   const auto fill = [&](double to) {
-    if (to > radius + least) result.push_back({radius, to, material_of(c, {}), std::nullopt});
+    if (!(to > radius + least)) return;
+    result.push_back({++n_rests == 1 ? own_name : fmt::format("{} {}", own_name, n_rests), radius, to,
+                      material_of(c, {}), std::nullopt});
   };
   for (const std::size_t i : outward(c)) {
     const auto [inner, outer] = radii(c, c.layers[i]);
     fill(inner);
-    result.push_back({inner, outer, material_of(c, i), i});
+    result.push_back({name_of_layer(c, i), inner, outer, material_of(c, i), i});
     radius = outer;
   }
   fill(c.wheel.outer_radius);
   return result;
 }
 
+std::vector<std::string> names_of_layers(const Case& c) {
+  std::vector<std::string> names;
+  if (!c.layers.empty())
+    for (const PlacedMaterial& placed : placed_materials(c)) names.push_back(placed.name);
+  return names;
+}
+
+Quantity in_layer(const Case& c, const Quantity& of_ring, const std::string& layer) {
+  if (layer.empty()) return of_ring;
+  const auto placed = placed_materials(c);
+  const auto found = std::ranges::find(placed, layer, &PlacedMaterial::name);
+  if (found == placed.end()) return of_ring;
+  return in_part(of_ring, {layer, found->inner_radius, found->outer_radius});
+}
+
+std::vector<Expectation> placed_expectations(const Case& c) {
+  std::vector<Expectation> result = c.expectations;
+  for (Expectation& expectation : result) expectation.quantity = quantity_of(c, expectation);
+  return result;
+}
+
+Quantity minimized_quantity(const Case& c) { return in_layer(c, c.objective.minimize, c.objective.layer); }
+
 template <int dim>
 Materials<dim> materials(const Case& c) {
   std::vector<typename Materials<dim>::Layer> layers;
   for (const PlacedMaterial& placed : placed_materials(c))
-    layers.push_back({placed.outer_radius, law_of<dim>(placed)});
+    layers.push_back({placed.outer_radius, law_of<dim>(placed), placed.name});
   std::vector<typename Materials<dim>::Cord> cords;
   for (const MaterialCord& cord : c.cords) cords.push_back({cord.radius, cord.stiffness});
   return Materials<dim>(std::move(layers), std::move(cords));
@@ -153,9 +182,10 @@ bool layers_fit(const Case& c, int radial_cells) {
   return materials<2>(c).fit(grid);
 }
 
-bool all_have_density(const Case& c) {
-  return std::ranges::all_of(placed_materials(c),
-                             [](const PlacedMaterial& placed) { return placed.density().has_value(); });
+bool has_density(const Case& c, const std::optional<PartOfRing>& part) {
+  return std::ranges::all_of(placed_materials(c), [&](const PlacedMaterial& placed) {
+    return (part && placed.name != part->name) || placed.density().has_value();
+  });
 }
 
 PlacedMaterial tread_material(const Case& c) { return placed_materials(c).back(); }

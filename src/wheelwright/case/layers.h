@@ -12,6 +12,7 @@ namespace wheelwright {
 
 /// An annulus of the ring of one material.
 struct PlacedMaterial {
+  std::string name;  ///< of the layer; "material" for what lies in none, if several "material 2" and so on
   double inner_radius, outer_radius;  ///< [m]
   std::variant<Material, OrthotropicMaterial> material;
   std::optional<std::size_t> layer;  ///< of the case; nothing for what lies in none
@@ -62,6 +63,25 @@ std::optional<OrthotropicMaterial> orthotropic_material(const Case& c,
 /// layers must not overlap. Orthotropic materials that are not stable are shown without Poisson's ratios.
 std::vector<PlacedMaterial> placed_materials(const Case& c);
 
+/// The names by which a case can refer to parts of the ring: those of the placed materials; none if there is
+/// only one.
+std::vector<std::string> names_of_layers(const Case& c);
+
+/// The quantity of a layer, by its name; if that is empty or there is no such layer, of the whole ring.
+Quantity in_layer(const Case& c, const Quantity& of_ring, const std::string& layer);
+
+/// The quantity that a table of the case names, of its layer if it names one.
+template <class Table>
+Quantity quantity_of(const Case& c, const Table& table) {
+  return in_layer(c, table.quantity, table.layer);
+}
+
+/// The expectations of the case, each with the quantity of its layer.
+std::vector<Expectation> placed_expectations(const Case& c);
+
+/// What is minimized instead of the weighted sum.
+Quantity minimized_quantity(const Case& c);
+
 /// The same for the mechanics.
 template <int dim>
 Materials<dim> materials(const Case& c);
@@ -69,8 +89,8 @@ Materials<dim> materials(const Case& c);
 /// Whether with this many radial cells the layers end on lines of the grid, and cords lie on lines.
 bool layers_fit(const Case& c, int radial_cells);
 
-/// Whether the density of every material of the ring is known.
-bool all_have_density(const Case& c);
+/// Whether the density of every material of the ring is known, or that of a part's.
+bool has_density(const Case& c, const std::optional<PartOfRing>& part = {});
 
 /// The material at the tread.
 PlacedMaterial tread_material(const Case& c);

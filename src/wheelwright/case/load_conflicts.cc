@@ -126,7 +126,7 @@ double rotation_strain(const Case& c) {
 void check_speed(const SingleLoad& single, Conflicts& found) {
   const Case& c = single.c;
   if (c.load.speed == 0) return;
-  if (!all_have_density(c)) {
+  if (!has_density(c)) {
     found.push_back({{single.key(&Load::speed), key_of(&Material::density)},
                      "the centrifugal load needs the density of every material",
                      c.layers.empty() ? "set material.density"

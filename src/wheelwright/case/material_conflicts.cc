@@ -176,6 +176,58 @@ std::string fitting_cells(const Case& c) {
   return text.empty() ? text : text.substr(0, text.size() - 4);
 }
 
+/// A stiff layer moves almost as a rigid body between soft ones: in its equations the forces of its
+/// neighbours are smaller than its own by the contrast, which costs as many digits.
+void check_contrast(const Case& c, Conflicts& found) {
+  constexpr double largest = 1e9;
+  const auto ring = placed_materials(c);
+  const auto modulus = [](const PlacedMaterial& placed) { return placed.youngs_modulus(); };
+  const PlacedMaterial &softest = *std::ranges::min_element(ring, {}, modulus),
+                       &stiffest = *std::ranges::max_element(ring, {}, modulus);
+  const double ratio = modulus(stiffest) / modulus(softest);
+  if (ratio <= largest) return;
+  found.push_back({{stiffest.youngs_modulus_key(), softest.youngs_modulus_key()},
+                   fmt::format("{} is {:.2g} times as stiff as {}: rounding would spoil the solution",
+                               stiffest.name, ratio, softest.name),
+                   fmt::format("use at most {:.0e} times; a layer that much stiffer hardly deforms, one that "
+                               "much softer hardly carries anything",
+                               largest)});
+}
+
+/// Checks a table that names a layer, and the quantity that it asks of it.
+template <class Table>
+void check_named_layer(const Case& c, const Table& table, const Quantity& quantity, const CaseKey& layer,
+                       const CaseKey& key_of_quantity, Conflicts& found) {
+  if (table.layer.empty()) return;
+  const std::vector<std::string> names = names_of_layers(c);
+  if (std::ranges::find(names, table.layer) == names.end())
+    found.push_back({{layer},
+                     "there is no layer with this name",
+                     names.empty() ? "add a [[material.layer]], or omit the key"
+                                   : fmt::format("known: {}", fmt::join(names, ", "))});
+  if (quantity->has_parts) return;
+  std::vector<std::string> of_layers;
+  for (const Quantity& known : c.vocabulary.quantities)
+    if (known->has_parts) of_layers.push_back(name(known));
+  found.push_back({{layer, key_of_quantity},
+                   fmt::format("a layer has no {} of its own", name(quantity)),
+                   fmt::format("omit the key; of layers there are {}", fmt::join(of_layers, ", "))});
+}
+
+/// Checks all tables that name layers.
+void check_named_layers(const Case& c, Conflicts& found) {
+  check_named_layer(c, c.objective, c.objective.minimize, key_of(&Objective::layer),
+                    key_of(&Objective::minimize), found);
+  const auto check_all = [&]<class Table>(const std::vector<Table>& tables) {
+    for (std::size_t i = 0; i < tables.size(); ++i)
+      check_named_layer(c, tables[i], tables[i].quantity, key_of(&Table::layer, i),
+                        key_of(&Table::quantity, i), found);
+  };
+  check_all(c.objective.terms);
+  check_all(c.constraints);
+  check_all(c.expectations);
+}
+
 /// Layers must end on lines of the grid.
 void check_lines(const Case& c, Conflicts& found) {
   if (layers_fit(c, c.grid.radial_cells)) return;
@@ -271,6 +323,8 @@ void material_conflicts(const Case& c, Conflicts& found) {
   check_lines(c, found);
   check_cords(c, found);
   check_material_of_annulus(c, found);
+  check_named_layers(c, found);
+  check_contrast(c, found);
 }
 
 }  // namespace wheelwright

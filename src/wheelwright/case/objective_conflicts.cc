@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/quantity_needs.h"
 #include "wheelwright/case/remedies.h"
@@ -44,10 +45,11 @@ void check_objective(const Case& c, Conflicts& found) {
 void check_terms(const Case& c, Conflicts& found) {
   const std::vector<SingleLoad> loads = single_loads(c, weighted_load_cases(c));
   for (std::size_t i = 0; i < c.objective.terms.size(); ++i) {
-    const Quantity& quantity = c.objective.terms[i].quantity;
-    const CaseKey key = key_of(&ObjectiveTerm::quantity, i);
     const auto& terms = c.objective.terms;
-    if (std::ranges::count(terms.begin(), terms.begin() + i, quantity, &ObjectiveTerm::quantity) > 0)
+    const Quantity quantity = quantity_of(c, terms[i]);
+    const CaseKey key = key_of(&ObjectiveTerm::quantity, i);
+    if (std::ranges::count(terms.begin(), terms.begin() + i, quantity,
+                           [&](const ObjectiveTerm& term) { return quantity_of(c, term); }) > 0)
       found.push_back({{key}, "an earlier term has this quantity", "add up their weights in one term"});
     if (objective_weight(name(quantity)))
       found.push_back({{key},
@@ -83,7 +85,7 @@ void check_minimized(const Case& c, Conflicts& found) {
     found.push_back({{key_of(&Objective::minimize)}, "the optimizer has no derivative of it", remedy});
   const std::vector<SingleLoad> loads = single_loads(c, weighted_load_cases(c));
   check_loads(loads, found, [&](const SingleLoad& single, Conflicts& of_case) {
-    for (const Need& need : unmet_needs(single, o.minimize))
+    for (const Need& need : unmet_needs(single, minimized_quantity(c)))
       of_case.push_back(
           {{key_of(&Objective::minimize), need.key}, need.problem, "change that key, or minimize another"});
     if (const auto constant = constancy(single, o.minimize))

@@ -5,10 +5,10 @@
 namespace wheelwright {
 namespace {
 
-bool has(const Case& c, Input input) {
+bool has(const Case& c, Input input, const std::optional<PartOfRing>& part) {
   switch (input) {
     case Input::density:
-      return all_have_density(c);
+      return has_density(c, part);
     case Input::load:
       return !c.load.travel;
     case Input::travel:
@@ -74,13 +74,13 @@ std::vector<Need> unmet_needs(const SingleLoad& single, const Quantity& quantity
       !(single.c.wheel.dimension == 2 ? functional.in<2>() != nullptr : functional.in<3>() != nullptr))
     needs.push_back({key_of(&Wheel::dimension), "it is computed only in the other dimension"});
   for (const Input input : quantity->needs)
-    if (!has(single.c, input)) needs.push_back(need(single, input));
+    if (!has(single.c, input, quantity->part)) needs.push_back(need(single, input));
   return needs;
 }
 
 std::optional<Constancy> constancy(const SingleLoad& single, const Quantity& quantity) {
   for (const Input input : quantity->varies_with)
-    if (!has(single.c, input)) return constancy_without(single, input);
+    if (!has(single.c, input, quantity->part)) return constancy_without(single, input);
   return {};
 }
 

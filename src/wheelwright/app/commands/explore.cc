@@ -33,9 +33,14 @@ class ExploreCommand : public Subcommand {
     if (!is_plane_or_report(name(), *c, case_file_)) return exit_refused;
     if (!may_compute(name(), *c, case_file_, options_.threads)) return exit_refused;
     plan_.seed = static_cast<std::uint64_t>(seed_);
-    plan_.quantities = options_.chosen_quantities(*c);
+    const auto quantities = options_.chosen_quantities(*c);
+    if (!quantities) {
+      print_err("wheelwright {}: --for: {}\n", name(), quantities.failure());
+      return exit_usage;
+    }
+    plan_.quantities = *quantities;
     const auto folder = folder_for(options_, *c, "-explore");
-    DesignSession session(name(), folder, options_, *c, signals, settings(*c));
+    DesignSession session(name(), folder, options_, *c, signals, *quantities, settings(*c));
     if (!session.may_begin()) return exit_refused;
     const auto designs = planned_designs(*c, plan_, session.drawing_settings(plan_.starts));
     if (const auto signal = signals.stop()) {

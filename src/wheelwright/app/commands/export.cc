@@ -12,6 +12,7 @@
 #include "wheelwright/app/wheel_input.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/cad/outline/check_outline.h"
+#include "wheelwright/cad/outline/cut_outline.h"
 #include "wheelwright/cad/outline/fit_outline.h"
 #include "wheelwright/case/version.h"
 #include "wheelwright/files/atomic_file.h"
@@ -111,6 +112,8 @@ class ExportCommand : public Subcommand {
                              "[mm]; default {}, in 3D {}",
                              default_tolerance, default_tolerance_3d));
     add_output(options, output_, "Folder for the files; default: the current one");
+    options.flag("--by-layer", by_layer_,
+                 "Also write each layer of a wheel of several materials to files of its own");
     options.flag("--force", force_, "Overwrite files that exist");
   }
 
@@ -144,80 +147,83 @@ class ExportCommand : public Subcommand {
     return true;
   }
 
-  int export_wheel(const WheelInput<2>& input) const {
-    const double accuracy = tolerance(default_tolerance);
-    const Formats chosen = formats(default_formats);
-    if (!can_hold_or_tell<WheelModel>(chosen)) return exit_usage;
-    if (const double finest = finest_share * input.source.wheel.outer_radius; accuracy < finest) {
+  /// Exports the whole wheel, and on request its layers as files of their own.
+  template <int dim>
+  int export_wheel(const WheelInput<dim>& input) const {
+    using Model = std::conditional_t<dim == 2, WheelModel, SurfaceModel>;
+    const Formats chosen = formats(dim == 2 ? default_formats : default_formats_3d);
+    if (!can_hold_or_tell<Model>(chosen)) return exit_usage;
+    const double accuracy = tolerance(dim == 2 ? default_tolerance : default_tolerance_3d);
+    if (const double finest = finest_share * input.source.wheel.outer_radius; dim == 2 && accuracy < finest) {
       print_err("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
                 finest * 1e3);
       return exit_usage;
     }
-    const auto whole = outlined(input, input.shape, "", accuracy);
-    if (!whole) return refuse(whole.failure());
-    const auto& [wheel, report] = *whole;
-    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(report));
-    warn_of_pieces(report.bodies);
-    if (const auto warning = roughness_warning(input.source, report.roughness); !warning.empty())
-      print_warning(stderr, warning);
-    std::vector<Named<WheelModel>> models{{input.name, wheel}};
-    for (const LayerShape<2>& layer : layer_shapes(input.source, input.shape)) {
-      const auto part = outlined(input, layer.shape, layer.name, accuracy);
-      if (part)
-        models.push_back({stem(input.name, layer.name), part->first});
-      else
-        warn_of_layer(layer.name, part.failure().front().what);
-    }
+    const auto wheel = fitted(input, accuracy);
+    if (!wheel) return refuse(wheel.failure());
+    std::vector<Named<Model>> models{{input.name, *wheel}};
+    if (by_layer_)
+      for (const auto& layer : wheel->layers)
+        models.push_back({stem(input.name, layer.name), layer_model(*wheel, layer)});
     return write(models, chosen);
   }
 
-  int export_wheel(const WheelInput<3>& input) const {
-    const Formats chosen = formats(default_formats_3d);
-    if (!can_hold_or_tell<SurfaceModel>(chosen)) return exit_usage;
-    const auto whole = surfaced(input, input.shape, "");
-    if (!whole) return refuse({{whole.failure().what}});
-    const auto& [wheel, fitted] = *whole;
-    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(fitted));
-    warn_of_pieces(fitted.report.bodies);
-    std::vector<Named<SurfaceModel>> models{{input.name, wheel}};
-    for (const LayerShape<3>& layer : layer_shapes(input.source, input.shape)) {
-      const auto part = surfaced(input, layer.shape, layer.name);
-      if (part)
-        models.push_back({stem(input.name, layer.name), part->first});
-      else
-        warn_of_layer(layer.name, part.failure().what);
-    }
-    return write(models, chosen);
-  }
+  using Faults = std::vector<cad::OutlineFault>;
 
-  /// The model of a shape and what its outline is worth.
-  static Expected<std::pair<WheelModel, cad::OutlineReport>, std::vector<cad::OutlineFault>> outlined(
-      const WheelInput<2>& input, const LevelSet<2>& shape, const std::string& layer, double accuracy) {
-    const auto outline = cad::fit_outline(shape, accuracy);
-    if (!outline) return std::vector{outline.failure()};
-    auto report = cad::check_outline(*outline, shape, accuracy);
+  /// The model of a wheel; prints what its outline is worth.
+  static Expected<WheelModel, Faults> fitted(const WheelInput<2>& input, double accuracy) {
+    auto outline = cad::fit_outline(input.shape, accuracy);
+    if (!outline) return Faults{outline.failure()};
+    const auto report = cad::check_outline(*outline, input.shape, accuracy);
     if (!report) return report.failure();
-    return std::pair(WheelModel{.title = title(input, layer),
-                                .program = program(),
-                                .shape = shape,
-                                .outline = *outline,
-                                .width = input.source.wheel.width,
-                                .tolerance = accuracy},
-                     *std::move(report));
+    WheelModel wheel{.title = title(input),
+                     .program = program(),
+                     .shape = input.shape,
+                     .outline = *std::move(outline),
+                     .width = input.source.wheel.width,
+                     .tolerance = accuracy};
+    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*report));
+    warn_of_pieces(report->bodies);
+    if (const auto warning = roughness_warning(input.source, report->roughness); !warning.empty())
+      print_warning(stderr, warning);
+    auto layers = layer_shapes(input.source, input.shape);
+    if (layers.empty()) return wheel;
+    auto outlines = cad::cut_by_circles(wheel.outline, cutting_radii(input.source, accuracy));
+    if (!outlines) return Faults{outlines.failure()};
+    Faults faults;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      for (const cad::OutlineFault& fault : cad::crossing_faults((*outlines)[k], accuracy))
+        faults.push_back(
+            {fmt::format("{}, of {}: they are nearer to each other than the tolerance; use a "
+                         "smaller --tolerance",
+                         fault.what, layers[k].name)});
+      wheel.layers.push_back(
+          {std::move(layers[k].name), std::move(layers[k].shape), std::move((*outlines)[k])});
+    }
+    if (!faults.empty()) return faults;
+    return wheel;
   }
 
-  Expected<std::pair<SurfaceModel, FittedSurface>, SurfaceRefusal> surfaced(const WheelInput<3>& input,
-                                                                            const LevelSet<3>& shape,
-                                                                            const std::string& layer) const {
-    auto fitted = fit_surface(shape, input.source.grid.degree, tolerance(default_tolerance_3d));
-    if (!fitted) return fitted.failure();
-    return std::pair(SurfaceModel{.title = title(input, layer),
-                                  .program = program(),
-                                  .shape = shape,
-                                  .surface = fitted->surface,
-                                  .parts = fitted->parts,
-                                  .map_degree = input.source.grid.degree},
-                     *fitted);
+  static Expected<SurfaceModel, Faults> fitted(const WheelInput<3>& input, double accuracy) {
+    const auto surfaced = [&](const LevelSet<3>& shape) {
+      return fit_surface(shape, input.source.grid.degree, accuracy);
+    };
+    const auto whole = surfaced(input.shape);
+    if (!whole) return Faults{{whole.failure().what}};
+    SurfaceModel wheel{.title = title(input),
+                       .program = program(),
+                       .shape = input.shape,
+                       .surface = whole->surface,
+                       .parts = whole->parts,
+                       .map_degree = input.source.grid.degree};
+    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*whole));
+    warn_of_pieces(whole->report.bodies);
+    for (LayerShape<3>& layer : layer_shapes(input.source, input.shape)) {
+      const auto part = surfaced(layer.shape);
+      if (!part) return Faults{{fmt::format("{}: {}", layer.name, part.failure().what)}};
+      wheel.layers.push_back({std::move(layer.name), std::move(layer.shape), part->surface, part->parts});
+    }
+    return wheel;
   }
 
   static std::string stem(const std::string& wheel, std::string layer) {
@@ -226,15 +232,10 @@ class ExportCommand : public Subcommand {
     return wheel + "-" + layer;
   }
 
-  static void warn_of_layer(const std::string& layer, const std::string& why) {
-    print_warning(stderr, fmt::format("no file of {} by itself: {}", layer, why));
-  }
-
   template <int dim>
-  static std::string title(const WheelInput<dim>& input, const std::string& layer) {
+  static std::string title(const WheelInput<dim>& input) {
     const std::string own = input.source.title.empty() ? input.name : input.source.title;
-    return fmt::format("{}, {}{}{}", without_control_characters(own), input.which, layer.empty() ? "" : ", ",
-                       layer);
+    return fmt::format("{}, {}", without_control_characters(own), input.which);
   }
 
   static std::string program() { return fmt::format("wheelwright {}", version()); }
@@ -279,7 +280,7 @@ class ExportCommand : public Subcommand {
 
   std::string input_;
   std::optional<std::string> formats_, tolerance_, output_;
-  bool force_ = false;
+  bool force_ = false, by_layer_ = false;
 };
 
 }  // namespace

@@ -70,9 +70,14 @@ class SweepCommand : public Subcommand {
 
  private:
   int run_designs(const Case& c, const std::vector<Design>& designs, const Signals& signals) const {
+    const auto quantities = options_.chosen_quantities(c);
+    if (!quantities) {
+      print_err("wheelwright {}: --for: {}\n", name(), quantities.failure());
+      return exit_usage;
+    }
     const auto folder = folder_for(options_, c, "-sweep");
     std::string settings = fmt::format("{}\n\n", fmt::join(texts_, "\n")) + to_toml(c);
-    DesignSession session(name(), folder, options_, c, signals, std::move(settings));
+    DesignSession session(name(), folder, options_, c, signals, *quantities, std::move(settings));
     if (!session.may_begin()) return exit_refused;
     return session.run(designs.size(), [&](const RunSettings& how) { return run_all(folder, designs, how); });
   }

@@ -210,6 +210,14 @@ Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& 
                        .roughness = roughness(outline, grid.n_sectors, grid.resolution())};
 }
 
+std::vector<OutlineFault> crossing_faults(const Outline& outline, double tolerance) {
+  std::vector<Polygon> polygons;
+  for (const Loop& loop : outline.loops) polygons.push_back(flattened(loop, tolerance));
+  Faults faults;
+  check_crossings(polygons, faults);
+  return faults;
+}
+
 std::string text(const OutlineReport& report) {
   std::string result = fmt::format("{:<16} {}\n", "curves", text(report.curves));
   result += fmt::format("{:<16} {:.6g} mm^2, {:+.1e} of the level set's\n", "area", report.area * 1e6,

@@ -63,13 +63,12 @@ std::vector<Body> bodies(const Outline& outline) {
   }
   for (const Loop& loop : outline.loops) {
     if (loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::island) continue;
-    // It belongs to the smallest that encloses it.
-    Body* owner = &bodies.front();
+    Body* owner = nullptr;  // the smallest that encloses it
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (encloses(polygons[i], start_of(loop.curves.front())) &&
-          signed_area(*bodies[i].edge) < signed_area(*owner->edge))
+          (!owner || signed_area(*bodies[i].edge) < signed_area(*owner->edge)))
         owner = &bodies[i];
-    owner->holes.push_back(&loop);
+    (owner ? owner : &bodies.front())->holes.push_back(&loop);
   }
   return bodies;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "wheelwright/case/layers.h"
 #include "wheelwright/design/explore/workers.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/file_content.h"
@@ -94,7 +95,7 @@ double largest_violation(const nlohmann::json& bounds) {
 }
 
 /// Reads the numbers of the last shape that a run wrote to its folder.
-void read_summary(const fs::path& folder, const Quantities& quantities, DesignResult& result) {
+void read_summary(const fs::path& folder, const Case& c, DesignResult& result) {
   if (!is_there(folder / "summary.json")) return;
   const auto summary = nlohmann::json::parse(file_content(folder / "summary.json"));
   if (!summary.contains("after")) return;
@@ -106,7 +107,9 @@ void read_summary(const fs::path& folder, const Quantities& quantities, DesignRe
     if (after.contains(key) && after[key].is_number()) numbers[key] = after[key].get<double>();
   };
   for (const WheelNumber<2>& number : wheel_numbers<2>()) read(number.key);
-  for (const Quantity& own : quantities.own()) read(number_key(own, 2));
+  for (const std::string& layer : names_of_layers(c))
+    for (const WheelNumber<2>& number : layer_numbers<2>(layer)) read(number.key);
+  for (const Quantity& own : c.vocabulary.quantities.own()) read(number_key(own, 2));
   if (after.contains("load_cases"))
     for (const auto& [load_case, of_case] : after["load_cases"].items())
       for (const auto& [key, value] : of_case.items())
@@ -157,7 +160,7 @@ DesignRun run_design(const Design& design, const fs::path& folder, Progression p
   } else {
     return {{}, fault_of_folder(run.failure(), folder)};
   }
-  read_summary(folder, design.source.vocabulary.quantities, result);
+  read_summary(folder, design.source, result);
   return {result, ""};
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/design/explore/pareto.h"
 #include "wheelwright/files/atomic_file.h"
@@ -47,14 +48,23 @@ Case as_design(Case c) {
 
 std::string design_name(std::size_t i) { return fmt::format("{:03}", i + 1); }
 
+constexpr double outline_size = 100;  ///< of the wheel in its path
+
 /// The wheel in a run's folder, as an SVG path.
 std::string outline(const fs::path& file) {
-  constexpr double size = 100;
   const auto psi = parse_level_set_file<2>(file_content(file));
   if (!psi) return {};
   const PolarGrid<2>& grid = psi->lattice.grid();
-  return material_path(grid, material_contours(*psi, 1), 0.5 * size / grid.outer_radius, 1,
+  return material_path(grid, material_contours(*psi, 1), 0.5 * outline_size / grid.outer_radius, 1,
                        0.01 * grid.outer_radius);
+}
+
+/// The circles between its layers in the same units.
+std::string layers_in_outline(const Case& c) {
+  std::string path;
+  for (const double radius : materials<2>(c).interfaces())
+    path += circle_path(0.5 * outline_size * radius / c.wheel.outer_radius, 1);
+  return path;
 }
 
 std::vector<RatedDesign> rated(const std::vector<Design>& designs,
@@ -184,8 +194,10 @@ std::vector<RankedDesign> write_designs(const fs::path& folder, const std::strin
                                         const std::vector<RankedQuantity>& quantities,
                                         const std::string& title) {
   std::vector<RankedDesign> order = ranked(designs, quantities);
-  for (RankedDesign& one : order)
+  for (RankedDesign& one : order) {
     one.outline = outline(folder / folder_of_designs / one.design.name / saved_shape_file);
+    if (!one.outline.empty()) one.layers = layers_in_outline(one.design.source);
+  }
   write_atomically(folder / (name + ".csv"), designs_csv(order));
   write_atomically(folder / (name + ".json"), designs_json(order, quantities));
   write_atomically(folder / pareto_picture, pareto_svg(order, quantities, title));

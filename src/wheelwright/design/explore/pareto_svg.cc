@@ -115,10 +115,14 @@ void draw_wheels(const std::vector<RankedDesign>& designs, std::string& svg) {
     const int row = i / wheels_per_row, column = i % wheels_per_row;
     const double x = wheels_left + (column + 0.5) * wheels_width / wheels_per_row,
                  y = top + row * (wheel_size + 44) + 0.5 * wheel_size;
-    svg += fmt::format(
-        "<path class=\"wheel\" transform=\"translate({:.1f} {:.1f}) scale({})\" d=\"{}\"/><text "
-        "class=\"number middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-        x, y, wheel_size / 100, one.outline, x, y + 4, i + 1);
+    const auto path = [&](const char* style, const std::string& d) {
+      return fmt::format("<path {} transform=\"translate({:.1f} {:.1f}) scale({})\" d=\"{}\"/>", style, x, y,
+                         wheel_size / 100, d);
+    };
+    svg += path("class=\"wheel\"", one.outline);
+    if (!one.layers.empty()) svg += path("fill=\"none\" stroke=\"#24292f\" stroke-width=\"0.8\"", one.layers);
+    svg +=
+        fmt::format("<text class=\"number middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, y + 4, i + 1);
     double below = y + 0.5 * wheel_size;
     for (const std::string& line : caption_lines(one.design.text))
       svg += fmt::format("<text class=\"small middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, below += 13,

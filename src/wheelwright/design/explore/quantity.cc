@@ -1,13 +1,16 @@
 #include "wheelwright/design/explore/quantity.h"
 
 #include <algorithm>
+#include <array>
+
+#include "wheelwright/case/layers.h"
 
 namespace wheelwright {
 
 /// Designs are 2D wheels. Lengths of good designs that differ in evenness differ by micrometres.
 RankedQuantity ranked(const Quantity& quantity) {
   const bool is_fine = quantity->is_of_evenness && kind(quantity) == UnitKind::length;
-  return {.word = quantity->ranked_as.empty() ? name(quantity) : quantity->ranked_as,
+  return {.word = of_part(quantity->ranked_as.empty() ? quantity->name : quantity->ranked_as, quantity->part),
           .label = label(quantity),
           .shown = is_fine ? micrometres : shown_unit(kind(quantity), 2),
           .key = number_key(quantity, 2),
@@ -16,27 +19,40 @@ RankedQuantity ranked(const Quantity& quantity) {
           .is_of_shape = quantity->of == Positions::none};
 }
 
-RankedQuantity ranked_mass() {
-  return {.word = "mass",
-          .label = "mass",
-          .shown = {"kg", 1},
-          .key = "mass_kg",
-          .is_larger_better = false,
-          .is_of_evenness = false,
-          .is_of_shape = true};
+namespace {
+
+constexpr std::array names_of_ranked{"stiffness",      "strain_energy",   "volume_fraction", "mass",
+                                     "run_out",        "force_variation", "peak_pressure",   "peak_von_mises",
+                                     "largest_strain", "roughness"};
+
+/// Whether a case gives the densities that a quantity needs.
+bool has_what_it_needs(const Case& c, const Quantity& quantity) {
+  return std::ranges::find(quantity->needs, Input::density) == quantity->needs.end() ||
+         has_density(c, quantity->part);
 }
+
+}  // namespace
 
 const std::vector<RankedQuantity>& ranked_quantities() {
   static const std::vector<RankedQuantity> all = [] {
     std::vector<RankedQuantity> quantities;
-    for (const char* name : {"stiffness", "strain_energy", "volume_fraction", "run_out", "force_variation",
-                             "peak_pressure", "peak_von_mises", "largest_strain", "roughness"})
-      quantities.push_back(ranked(built_in(name)));
-    std::ranges::find(quantities, "mass", &RankedQuantity::word)->label =
-        "volume, which the mass is proportional to";
+    for (const char* name : names_of_ranked) quantities.push_back(ranked(built_in(name)));
     return quantities;
   }();
   return all;
+}
+
+std::vector<RankedQuantity> ranked_quantities(const Case& c) {
+  std::vector<RankedQuantity> quantities;
+  const auto add = [&](const Quantity& quantity) {
+    if (has_what_it_needs(c, quantity)) quantities.push_back(ranked(quantity));
+  };
+  for (const char* name : names_of_ranked) add(built_in(name));
+  for (const std::string& layer : names_of_layers(c))
+    for (const char* name : names_of_ranked)
+      if (built_in(name)->has_parts) add(in_layer(c, built_in(name), layer));
+  for (const Quantity& own : c.vocabulary.quantities.own()) add(own);
+  return quantities;
 }
 
 const RankedQuantity* find_quantity(std::string_view word) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wheelwright/base/units.h"
-#include "wheelwright/quantities/functionals/quantities.h"
+#include "wheelwright/case/case.h"
 
 namespace wheelwright {
 
@@ -23,14 +23,14 @@ struct RankedQuantity {
 
 RankedQuantity ranked(const Quantity& quantity);
 
-/// The mass itself, for wheels of several materials; the word `mass` otherwise means the volume, to which it
-/// is proportional.
-RankedQuantity ranked_mass();
-
 /// All built-in ones.
 const std::vector<RankedQuantity>& ranked_quantities();
 
-/// The one with that word or name, or null.
+/// Those that the designs of a case have: without the mass if it is not known, and with those of its layers
+/// and of its program.
+std::vector<RankedQuantity> ranked_quantities(const Case& c);
+
+/// The built-in one with that word or name, or null.
 const RankedQuantity* find_quantity(std::string_view word);
 
 }  // namespace wheelwright

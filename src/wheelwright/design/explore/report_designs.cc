@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "wheelwright/case/layers.h"
 #include "wheelwright/design/explore/design_runs.h"
 #include "wheelwright/design/explore/pareto.h"
 #include "wheelwright/files/csv.h"
@@ -38,15 +39,6 @@ std::vector<std::string> load_cases_of(const std::vector<RankedDesign>& designs)
   return names;
 }
 
-/// The quantities that the designs' program has added.
-std::vector<RankedQuantity> own_quantities(const std::vector<RankedDesign>& designs) {
-  std::vector<RankedQuantity> own;
-  if (!designs.empty())
-    for (const Quantity& quantity : designs.front().design.source.vocabulary.quantities.own())
-      own.push_back(ranked(quantity));
-  return own;
-}
-
 /// The keys of all numbers: those of the first load case, then those of the others that depend on the load.
 std::vector<std::string> number_keys(const std::vector<RankedDesign>& designs) {
   std::vector<std::string> keys, under_load;
@@ -55,7 +47,13 @@ std::vector<std::string> number_keys(const std::vector<RankedDesign>& designs) {
     if (!is_of_shape) under_load.push_back(key);
   };
   for (const auto& number : wheel_numbers<2>()) add(number.key, number.is_of_shape);
-  for (const RankedQuantity& own : own_quantities(designs)) add(own.key, own.is_of_shape);
+  if (!designs.empty()) {
+    const Case& c = designs.front().design.source;
+    for (const std::string& layer : names_of_layers(c))
+      for (const auto& number : layer_numbers<2>(layer)) add(number.key, number.is_of_shape);
+    for (const Quantity& own : c.vocabulary.quantities.own())
+      add(number_key(own, 2), own->of == Positions::none);
+  }
   for (const std::string& load_case : load_cases_of(designs))
     for (const std::string& key : under_load) keys.push_back(key_in_case(key, load_case));
   return keys;
@@ -63,10 +61,7 @@ std::vector<std::string> number_keys(const std::vector<RankedDesign>& designs) {
 
 /// All quantities of the designs.
 std::vector<RankedQuantity> all_quantities(const std::vector<RankedDesign>& designs) {
-  std::vector<RankedQuantity> all = ranked_quantities();
-  const auto own = own_quantities(designs);
-  all.insert(all.end(), own.begin(), own.end());
-  return all;
+  return designs.empty() ? ranked_quantities() : ranked_quantities(designs.front().design.source);
 }
 
 /// A column of the displayed table.
@@ -352,6 +347,7 @@ std::string designs_page(const std::vector<RankedDesign>& designs,
                                {"values", std::move(values)},
                                {"errors", std::move(errors)},
                                {"outline", one.outline}});
+    if (!one.layers.empty()) data["designs"].back()["layers"] = one.layers;
   }
   return filled_template(assets::designs_html,
                          {{"@TITLE@", escape_xml(title)},

@@ -14,6 +14,7 @@ struct RankedDesign : RatedDesign {
   int front;  ///< in the requested quantities (design/explore/pareto.h); 0: no result, or a bound is violated
   std::string
       outline;  ///< the `d` of an SVG path of the wheel, 100 units wide about the origin; may be empty
+  std::string layers = {};  ///< the same of the circles between layers of materials
 };
 
 /// Designs that differ by less than their errors in a quantity, by their names.

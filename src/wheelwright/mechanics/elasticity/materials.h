@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "wheelwright/mechanics/elasticity/isotropic_law.h"
@@ -18,6 +19,13 @@ class Materials {
   struct Layer {
     double outer_radius;  ///< [m]; that of the last layer does not matter: it reaches the tread
     std::shared_ptr<const MaterialLaw<dim>> law;
+    std::string name = {};  ///< for people
+  };
+
+  /// Cords side by side along a circle, as thick as a line.
+  struct Cord {
+    double radius;     ///< [m]
+    double stiffness;  ///< E A per width along the axle [N/m]
   };
 
   /// Cords side by side along a circle, as thick as a line.

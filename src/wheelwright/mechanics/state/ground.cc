@@ -81,6 +81,7 @@ Ground::Nearest Ground::nearest(const Face& face, const Vec<2>& place) {
 Ground::Nearest Ground::nearest(const Vec<2>& place) const {
   if (is_flat()) return {place[1], 0};
   Nearest result{std::numeric_limits<double>::infinity(), 0};
+  // A place on one face is far behind another, such as the side of a kerb.
   const auto take = [&](const Nearest& candidate) {
     if (std::abs(candidate.gap) < std::abs(result.gap)) result = candidate;
   };

@@ -130,26 +130,51 @@ std::array<double, 3> principal_strains<3>(const double* strain, double) {
 }
 
 template <int dim>
-StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state) {
+std::vector<StrainPeaks<dim>> strain_peaks_by_layer(const StateSolver<dim>& solver, const State<dim>& state) {
   const Displacement<dim>& displacement = state.displacement();
   const PolarGrid<dim>& grid = solver.model().grid;
-  const int n_positions = state.positions().size();
+  const Materials<dim>& materials = solver.model().materials;
+  using OfLayers = std::vector<SquaredPeaks<dim>>;
+  const OfLayers none(materials.layers().size(), SquaredPeaks<dim>(state.positions().size()));
   const auto points = material_points(state.domain(), solver.model().degree);
-  std::vector<SquaredPeaks<dim>> of_column(grid.columns(), SquaredPeaks<dim>(n_positions));
+  std::vector<OfLayers> of_column(grid.columns(), none);
   const int cells_per_column = grid.n_cells() / grid.columns();
   parallel_for(grid.columns(), [&](int column) {
     for (int k = 0; k < cells_per_column; ++k) {
       const int cell = column * cells_per_column + k;
-      if (!points[cell].empty()) add_cell<dim>(solver, displacement, cell, points[cell], of_column[column]);
+      if (points[cell].empty()) continue;
+      const int layer = materials.layer_at(grid.middle_of_row(grid.cell_position(cell)[0]));
+      add_cell<dim>(solver, displacement, cell, points[cell], of_column[column][layer]);
     }
   });
-  SquaredPeaks<dim> all(n_positions);
-  for (const auto& peaks : of_column) all.add(peaks);
-  for (double& square : all.von_mises) square = std::sqrt(square);
-  for (double& square : all.principal) square = std::sqrt(square);
-  return {std::move(all.von_mises), std::move(all.places), std::move(all.principal)};
+  std::vector<StrainPeaks<dim>> result;
+  for (std::size_t layer = 0; layer < none.size(); ++layer) {
+    SquaredPeaks<dim> all = none[layer];
+    for (const OfLayers& peaks : of_column) all.add(peaks[layer]);
+    for (double& square : all.von_mises) square = std::sqrt(square);
+    for (double& square : all.principal) square = std::sqrt(square);
+    result.push_back({std::move(all.von_mises), std::move(all.places), std::move(all.principal)});
+  }
+  return result;
 }
 
+template <int dim>
+StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state) {
+  auto by_layer = strain_peaks_by_layer(solver, state);
+  StrainPeaks<dim> all = std::move(by_layer.front());
+  for (auto layer = by_layer.begin() + 1; layer != by_layer.end(); ++layer)
+    for (std::size_t i = 0; i < all.von_mises.size(); ++i) {
+      if (layer->von_mises[i] > all.von_mises[i]) {
+        all.von_mises[i] = layer->von_mises[i];
+        all.von_mises_places[i] = layer->von_mises_places[i];
+      }
+      all.principal[i] = std::max(all.principal[i], layer->principal[i]);
+    }
+  return all;
+}
+
+template decltype(strain_peaks_by_layer<2>) strain_peaks_by_layer<2>;
+template decltype(strain_peaks_by_layer<3>) strain_peaks_by_layer<3>;
 template decltype(strain_peaks<2>) strain_peaks<2>;
 template decltype(strain_peaks<3>) strain_peaks<3>;
 

@@ -6,7 +6,11 @@
 
 namespace wheelwright {
 
-/// Computes State::strain_peaks(), which remembers them.
+/// The peaks in every layer of the model's materials, from the rim to the tread.
+template <int dim>
+std::vector<StrainPeaks<dim>> strain_peaks_by_layer(const StateSolver<dim>& solver, const State<dim>& state);
+
+/// Computes State::strain_peaks(), which remembers them: the largest of all layers.
 template <int dim>
 StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state);
 

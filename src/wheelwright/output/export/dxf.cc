@@ -101,9 +101,8 @@ Groups section(std::string_view name, const Groups& content) {
   return Groups().text(0, "SECTION").text(2, name).add(content).text(0, "ENDSEC");
 }
 
-Groups header(const cad::Outline& outline, int next_handle) {
+Groups header(double reach, int next_handle) {
   constexpr int millimetres = 4, metric = 1;
-  const double reach = std::get<cad::Arc>(outline.loops.front().curves.front()).radius;
   Groups g;
   g.text(9, "$ACADVER").text(1, "AC1015");
   g.text(9, "$DWGCODEPAGE").text(3, "ANSI_1252");
@@ -157,9 +156,19 @@ Groups viewport(double reach) {
   return g.length(40, 2.2 * reach).number(41, 1);
 }
 
-Groups tables(double reach) {
+/// The names of the layers of the drawing: the kinds of loops, or the layers of materials.
+std::vector<std::string> layer_names(const WheelModel& wheel) {
+  std::vector<std::string> names;
+  for (const WheelLayer& of_material : wheel.layers) names.push_back(of_material.name);
+  if (names.empty())
+    for (const cad::LoopKind kind : kinds) names.push_back(layer(kind));
+  return names;
+}
+
+Groups tables(double reach, const std::vector<std::string>& names) {
   Groups layers = layer_record(h_layer, "0", 7);
-  for (int i = 0; i < 4; ++i) layers.add(layer_record(h_first_layer + i, layer(kinds[i]), colours[i]));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    layers.add(layer_record(h_first_layer + static_cast<int>(i), names[i], colours[i % std::size(colours)]));
   Groups line_types = line_type(h_line_type_by_block, "ByBlock");
   line_types.add(line_type(h_line_type_by_layer, "ByLayer")).add(line_type(h_line_type, "Continuous"));
   Groups style = record("STYLE", h_style, h_styles, "AcDbTextStyleTableRecord", "Standard");
@@ -180,7 +189,8 @@ Groups tables(double reach) {
       record("BLOCK_RECORD", h_model_record, h_block_records, "AcDbBlockTableRecord", "*Model_Space");
   blocks.add(record("BLOCK_RECORD", h_paper_record, h_block_records, "AcDbBlockTableRecord", "*Paper_Space"));
   Groups g = table("VPORT", h_viewports, 1, viewport(reach));
-  g.add(table("LTYPE", h_line_types, 3, line_types)).add(table("LAYER", h_layers, 5, layers));
+  g.add(table("LTYPE", h_line_types, 3, line_types))
+      .add(table("LAYER", h_layers, 1 + static_cast<int>(names.size()), layers));
   g.add(table("STYLE", h_styles, 1, style)).add(table("VIEW", h_views, 0, {}));
   g.add(table("UCS", h_coordinate_systems, 0, {})).add(table("APPID", h_applications, 1, application));
   g.add(table("DIMSTYLE", h_dimension_styles, 1, dimension))
@@ -221,31 +231,35 @@ double degrees(double radians) {
 
 class Entities {
  public:
-  void add(const cad::Loop& loop) {
+  /// In a layer of the drawing of that name.
+  void add(const cad::Loop& loop, const std::string& layer) {
     const auto is_spline = [](const cad::Curve& curve) { return std::holds_alternative<cad::Spline>(curve); };
     if (loop.curves.size() > 1 && std::ranges::none_of(loop.curves, is_spline))
-      add_polyline(loop);
+      add_polyline(loop, layer);
     else
-      for (const cad::Curve& curve : loop.curves) add_curve(curve, loop.kind);
+      for (const cad::Curve& curve : loop.curves) add_curve(curve, layer);
   }
 
   const Groups& groups() const { return groups_; }
   int next_handle() const { return handle_; }
 
  private:
-  Groups& begin(std::string_view type, cad::LoopKind kind) {
+  Groups& begin(std::string_view type, const std::string& layer) {
     return groups_.text(0, type)
         .handle(5, handle_++)
         .handle(330, h_model_record)
         .text(100, "AcDbEntity")
-        .text(8, layer(kind));
+        .text(8, layer);
   }
 
-  void add_curve(const cad::Curve& curve, cad::LoopKind kind) {
+  void add_curve(const cad::Curve& curve, const std::string& layer) {
     if (const auto* line = std::get_if<cad::Line>(&curve)) {
-      begin("LINE", kind).text(100, "AcDbLine").point_in_space(10, line->start).point_in_space(11, line->end);
+      begin("LINE", layer)
+          .text(100, "AcDbLine")
+          .point_in_space(10, line->start)
+          .point_in_space(11, line->end);
     } else if (const auto* arc = std::get_if<cad::Arc>(&curve)) {
-      begin(is_circle(curve) ? "CIRCLE" : "ARC", kind)
+      begin(is_circle(curve) ? "CIRCLE" : "ARC", layer)
           .text(100, "AcDbCircle")
           .point_in_space(10, arc->centre)
           .length(40, arc->radius);
@@ -255,24 +269,24 @@ class Entities {
           .number(50, degrees(std::min(arc->begin, end)))
           .number(51, degrees(std::max(arc->begin, end)));
     } else {
-      add_spline(std::get<cad::Spline>(curve), kind);
+      add_spline(std::get<cad::Spline>(curve), layer);
     }
   }
 
-  void add_spline(const cad::Spline& spline, cad::LoopKind kind) {
+  void add_spline(const cad::Spline& spline, const std::string& layer) {
     constexpr int planar = 8, degree = 3;
     const int n_knots = static_cast<int>(spline.knots.size()),
               n_points = static_cast<int>(spline.points.size());
-    begin("SPLINE", kind).text(100, "AcDbSpline").number(210, 0).number(220, 0).number(230, 1);
+    begin("SPLINE", layer).text(100, "AcDbSpline").number(210, 0).number(220, 0).number(230, 1);
     groups_.integer(70, planar).integer(71, degree).integer(72, n_knots).integer(73, n_points).integer(74, 0);
     groups_.number(42, 1e-10).number(43, 1e-10);
     for (const double knot : spline.knots) groups_.number(40, knot);
     for (const Vec<2>& p : spline.points) groups_.point_in_space(10, p);
   }
 
-  void add_polyline(const cad::Loop& loop) {
+  void add_polyline(const cad::Loop& loop, const std::string& layer) {
     constexpr int closed = 1;
-    begin("LWPOLYLINE", loop.kind).text(100, "AcDbPolyline");
+    begin("LWPOLYLINE", layer).text(100, "AcDbPolyline");
     groups_.integer(90, static_cast<int>(loop.curves.size())).integer(70, closed);
     for (const cad::Curve& curve : loop.curves) {
       groups_.point(10, start_of(curve));
@@ -288,12 +302,15 @@ class Entities {
 
 std::string dxf(const WheelModel& wheel) {
   Entities entities;
-  for (const cad::Loop& loop : wheel.outline.loops) entities.add(loop);
-  const double reach = std::get<cad::Arc>(wheel.outline.loops.front().curves.front()).radius;
+  if (wheel.layers.empty())
+    for (const cad::Loop& loop : wheel.outline.loops) entities.add(loop, layer(loop.kind));
+  for (const WheelLayer& of_material : wheel.layers)
+    for (const cad::Loop& loop : of_material.outline.loops) entities.add(loop, of_material.name);
+  const double reach = wheel.shape.lattice.grid().outer_radius;
   Groups file;
   file.text(999, ascii(wheel.title + ", by " + wheel.program));
-  file.add(header(wheel.outline, entities.next_handle()));
-  file.add(section("CLASSES", {})).add(tables(reach)).add(blocks());
+  file.add(header(reach, entities.next_handle()));
+  file.add(section("CLASSES", {})).add(tables(reach, layer_names(wheel))).add(blocks());
   file.add(section("ENTITIES", entities.groups())).add(objects()).text(0, "EOF");
   return file.content();
 }

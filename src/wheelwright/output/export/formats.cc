@@ -13,18 +13,20 @@
 namespace wheelwright {
 namespace {
 
-SolidModel solid(const WheelModel& wheel) { return {wheel.title, wheel.program, solid_mesh(wheel)}; }
-SolidModel solid(const SurfaceModel& wheel) {
-  return {wheel.title, wheel.program, solid_mesh(wheel.surface)};
-}
+SolidMesh mesh_of(const WheelModel& wheel) { return solid_mesh(wheel); }
+SolidMesh mesh_of(const SurfaceModel& wheel) { return solid_mesh(wheel.surface); }
 
 template <class Model>
 std::string stl_of(const Model& wheel) {
-  return stl(solid(wheel));
+  return stl({wheel.title, wheel.program, {{"wheel", mesh_of(wheel)}}});
 }
 template <class Model>
 std::string three_mf(const Model& wheel) {
-  return plugin_file("3mf", "lib3mf-dev", solid(wheel));
+  SolidModel solid{wheel.title, wheel.program, {}};
+  for (const auto& layer : wheel.layers)
+    solid.bodies.push_back({layer.name, mesh_of(layer_model(wheel, layer))});
+  if (solid.bodies.empty()) solid.bodies.push_back({"wheel", mesh_of(wheel)});
+  return plugin_file("3mf", "lib3mf-dev", solid);
 }
 std::string step(const WheelModel& wheel) { return plugin_file("step", "libocct-data-exchange-dev", wheel); }
 

@@ -17,9 +17,8 @@ constexpr int width = 1600, margin = 20, bytes_per_pixel = 3;
 constexpr double tolerance = 0.05;  // of the outline [pixels]
 
 /// The outline in pixels, with y downwards.
-agg::path_storage path_of(const cad::Outline& outline) {
-  const double radius = std::get<cad::Arc>(outline.loops.front().curves.front()).radius;
-  const double scale = (width / 2.0 - margin) / radius;
+agg::path_storage path_of(const cad::Outline& outline, double outer_radius) {
+  const double scale = (width / 2.0 - margin) / outer_radius;
   agg::path_storage path;
   for (const cad::Loop& loop : outline.loops) {
     bool is_first = true;
@@ -36,23 +35,28 @@ agg::path_storage path_of(const cad::Outline& outline) {
 }  // namespace
 
 std::string png(const WheelModel& wheel) {
-  const agg::rgba8 white(255, 255, 255), blue(59, 110, 165);
+  const agg::rgba8 white(255, 255, 255);
   Image image{width, width, std::vector<std::uint8_t>(std::size_t{width} * width * bytes_per_pixel)};
   agg::rendering_buffer buffer(image.rgb.data(), width, width, width * bytes_per_pixel);
   agg::pixfmt_rgb24 format(buffer);
   agg::renderer_base<agg::pixfmt_rgb24> renderer(format);
   renderer.clear(white);
-  agg::rasterizer_scanline_aa<> rasterizer;
-  rasterizer.filling_rule(agg::fill_even_odd);
-  agg::path_storage path = path_of(wheel.outline);
-  rasterizer.add_path(path);
-  agg::scanline_u8 scanline;
-  agg::render_scanlines_aa_solid(rasterizer, scanline, renderer, blue);
+  const auto fill = [&](const cad::Outline& outline, std::size_t layer) {
+    agg::rasterizer_scanline_aa<> rasterizer;
+    rasterizer.filling_rule(agg::fill_even_odd);
+    agg::path_storage path = path_of(outline, wheel.shape.lattice.grid().outer_radius);
+    rasterizer.add_path(path);
+    agg::scanline_u8 scanline;
+    const auto [red, green, blue] = layer_colour(layer);
+    agg::render_scanlines_aa_solid(rasterizer, scanline, renderer, agg::rgba8(red, green, blue));
+  };
+  fill(wheel.outline, 0);
+  for (std::size_t k = 1; k < wheel.layers.size(); ++k) fill(wheel.layers[k].outline, k);
   return png_file(image);
 }
 
 std::string png(const SurfaceModel& wheel) {
-  return png_file(lit_image({lit_wheel(wheel.surface, wheel.shape.lattice.grid())},
+  return png_file(lit_image(lit_wheel(wheel.surface, wheel.shape.lattice.grid(), layer_circles(wheel)),
                             wheel_camera(wheel.shape.lattice.grid()), width));
 }
 

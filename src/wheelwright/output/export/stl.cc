@@ -3,7 +3,7 @@
 namespace wheelwright {
 
 std::string stl(const SolidModel& solid) {
-  return stl_file(solid.mesh, solid.program + ", millimetres: " + solid.title);
+  return stl_file(solid.bodies.front().mesh, solid.program + ", millimetres: " + solid.title);
 }
 
 }  // namespace wheelwright

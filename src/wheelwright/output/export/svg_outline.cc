@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wheelwright/output/report/svg.h"
 
 namespace wheelwright {
@@ -34,23 +36,44 @@ std::string subpath(const cad::Loop& loop, double tolerance) {
   return path + "Z";
 }
 
+std::string path_of(const cad::Outline& outline, double tolerance) {
+  std::string path;
+  for (const cad::Loop& loop : outline.loops) path += fmt::format("{}\n", subpath(loop, tolerance));
+  return path;
+}
+
+/// The paths of the layers, which programs like Inkscape show as layers.
+std::string layer_paths(const WheelModel& wheel) {
+  std::string groups;
+  for (const WheelLayer& layer : wheel.layers) {
+    const auto [red, green, blue] = layer_colour(&layer - wheel.layers.data());
+    std::string id = layer.name;
+    std::ranges::replace(id, ' ', '-');
+    groups += fmt::format(
+        "<g id=\"layer-{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\" "
+        "fill=\"#{:02x}{:02x}{:02x}\">\n"
+        "<path d=\"{}\"/>\n</g>\n",
+        id, escape_xml(layer.name), red, green, blue, path_of(layer.outline, wheel.tolerance));
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::string svg_outline(const WheelModel& wheel) {
-  const auto& edge = std::get<cad::Arc>(wheel.outline.loops.front().curves.front());
-  const double half = edge.radius * millimetres_per_metre;
-  std::string path;
-  for (const cad::Loop& loop : wheel.outline.loops)
-    path += fmt::format("{}\n", subpath(loop, wheel.tolerance));
+  const double half = wheel.shape.lattice.grid().outer_radius * millimetres_per_metre;
+  const bool has_layers = !wheel.layers.empty();
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{0:.6g}mm\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" {5}width=\"{0:.6g}mm\" height=\"{0:.6g}mm\" "
       "viewBox=\"0 0 {0:.6g} {0:.6g}\">\n"
       "<title>{2}</title>\n<desc>{3}; millimetres</desc>\n"
       "<g id=\"wheel\" transform=\"translate({1:.6g} {1:.6g})\" fill=\"#3b6ea5\" fill-rule=\"evenodd\" "
-      "stroke=\"none\">\n"
-      "<path id=\"material\" d=\"{4}\"/>\n</g>\n</svg>\n",
-      2 * half, half, escape_xml(wheel.title), escape_xml(wheel.program), path);
+      "stroke=\"none\">\n{4}</g>\n</svg>\n",
+      2 * half, half, escape_xml(wheel.title), escape_xml(wheel.program),
+      has_layers ? layer_paths(wheel)
+                 : fmt::format("<path id=\"material\" d=\"{}\"/>\n", path_of(wheel.outline, wheel.tolerance)),
+      has_layers ? "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" " : "");
 }
 
 }  // namespace wheelwright

@@ -20,12 +20,14 @@ LevelSet<dim> in_millimetres(const LevelSet<dim>& shape) {
 
 std::string vtu_shape(const WheelModel& wheel) {
   const LevelSet<2> psi = in_millimetres(wheel.shape);
-  return VtuMesh<2>(psi, psi.lattice, vtu_cut_subdivisions<2>, "mm").file({});
+  return VtuMesh<2>(psi, psi.lattice, vtu_cut_subdivisions<2>, "mm", layers_of_rows(wheel)).file({});
 }
 
 std::string vtu_shape(const SurfaceModel& wheel) {
   const LevelSet<3> psi = in_millimetres(wheel.shape);
-  return VtuMesh<3>(psi, Lattice<3>(psi.lattice.grid(), wheel.map_degree), wheel.parts, "mm").file({});
+  return VtuMesh<3>(psi, Lattice<3>(psi.lattice.grid(), wheel.map_degree), wheel.parts, "mm",
+                    layers_of_rows(wheel))
+      .file({});
 }
 
 std::string vtp_surface(const SurfaceModel& wheel) {

@@ -1,11 +1,22 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "wheelwright/cad/outline/outline.h"
+#include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/output/report/solid_mesh.h"
 
 namespace wheelwright {
+
+/// A layer of a wheel of several materials, as a wheel of its own.
+struct WheelLayer {
+  std::string name;
+  LevelSet<2> shape;
+  cad::Outline outline;  ///< its part of the wheel's outline, cut by circles (cad/outline/cut_outline.h)
+};
 
 /// A plane wheel as CAD and workshop programs see it: an outline, and the solid obtained by extruding it
 /// along the axle. Files of all formats are in millimetres, with the axle at the origin, azimuth 0 along x,
@@ -17,6 +28,14 @@ struct WheelModel {
   cad::Outline outline;  ///< [m]
   double width;          ///< [m]
   double tolerance;      ///< of chords and cubics that replace curves a format does not support [m]
+  std::vector<WheelLayer> layers = {};  ///< from the rim to the tread; empty: there is one material
+};
+
+struct SurfaceLayer {
+  std::string name;
+  LevelSet<3> shape;
+  SurfaceMesh surface;
+  int parts;  ///< as in SurfaceModel
 };
 
 /// A wheel whose shape changes along the axle: a closed surface. Placed in files like the solid of a
@@ -28,14 +47,49 @@ struct SurfaceModel {
   SurfaceMesh surface;  ///< [m]
   int parts;            ///< into which each cell was divided along each axis for the surface
   int map_degree;       ///< of its isoparametric cells
+  std::vector<SurfaceLayer> layers = {};
+};
+
+/// A body of a SolidModel.
+struct SolidBody {
+  std::string name;
+  SolidMesh mesh;
 };
 
 /// Either of them, for programs that support only triangles.
 struct SolidModel {
   std::string title;
   std::string program;
-  SolidMesh mesh;
+  std::vector<SolidBody> bodies;  ///< the whole wheel, or its layers
 };
+
+/// A layer of a wheel as a wheel.
+WheelModel layer_model(const WheelModel& wheel, const WheelLayer& layer);
+SurfaceModel layer_model(const SurfaceModel& wheel, const SurfaceLayer& layer);
+
+/// The circles between the layers.
+template <class Model>
+LayerCircles layer_circles(const Model& wheel) {
+  LayerCircles circles;
+  for (const auto& layer : wheel.layers) {
+    circles.names.push_back(layer.name);
+    if (&layer != &wheel.layers.back()) circles.radii.push_back(layer.shape.lattice.grid().outer_radius);
+  }
+  return circles;
+}
+
+/// The layer of every row of cells, as in layers_of_rows().
+template <class Model>
+std::vector<int> layers_of_rows(const Model& wheel) {
+  std::vector<int> result;
+  for (const auto& layer : wheel.layers)
+    result.insert(result.end(), layer.shape.lattice.grid().cells[0],
+                  static_cast<int>(&layer - wheel.layers.data()));
+  return result;
+}
+
+/// Red, green and blue of a layer in files with colours.
+std::array<std::uint8_t, 3> layer_colour(std::size_t layer);
 
 /// All formats write millimetres.
 inline constexpr double millimetres_per_metre = 1e3;

@@ -73,6 +73,7 @@ Json fields_json(const SectorMesh& mesh, std::span<const MeshPosition> all) {
             {"full_stress_Pa", full_stress},
             {"positions", std::move(positions)}};
   if (!all.empty() && !all.front().ground.empty()) json["ground_m"] = all.front().ground;
+  if (!mesh.layer_edges.empty()) json["layer_edges"] = encoded(mesh.layer_edges);
   return json;
 }
 
@@ -137,7 +138,7 @@ std::vector<double> widened(const std::vector<float>& values) { return {values.b
 
 /// The surface of sector 0, whose corners beyond its own vertices are those of the next sector, and the
 /// deformed wheel in its load positions.
-Json fields_json(const SurfaceMesh& mesh, std::span<const SurfacePosition> all) {
+Json fields_json(const LayeredSurface& mesh, std::span<const SurfacePosition> all) {
   const std::size_t n_triangles = mesh.triangles.size() / mesh.n_sectors;
   std::vector<float> points;
   for (int v = 0; v < mesh.sector_points(); ++v)
@@ -148,6 +149,9 @@ Json fields_json(const SurfaceMesh& mesh, std::span<const SurfacePosition> all) 
     corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
     parts.push_back(static_cast<std::uint8_t>(mesh.parts[t]));
   }
+  std::vector<std::uint32_t> edges;
+  for (std::size_t k = 0; k < mesh.layer_edges.size() / mesh.n_sectors; ++k)
+    edges.insert(edges.end(), mesh.layer_edges[k].begin(), mesh.layer_edges[k].end());
   std::vector<std::vector<double>> displacement, stress;
   for (const SurfacePosition& position : all) {
     for (const auto& component : position.displacement) displacement.push_back(widened(component));
@@ -161,13 +165,15 @@ Json fields_json(const SurfaceMesh& mesh, std::span<const SurfacePosition> all) 
                          {"y", encoded(as_shorts(displacement[3 * i + 1], full_displacement))},
                          {"z", encoded(as_shorts(displacement[3 * i + 2], full_displacement))},
                          {"root_of_stress", encoded(as_bytes_of_roots(stress[i], full_stress))}});
-  return {{"is_surface", true},
-          {"points", encoded(points)},
-          {"triangles", encoded(corners)},
-          {"parts", encoded(parts)},
-          {"full_displacement_m", full_displacement},
-          {"full_stress_Pa", full_stress},
-          {"positions", std::move(positions)}};
+  Json json{{"is_surface", true},
+            {"points", encoded(points)},
+            {"triangles", encoded(corners)},
+            {"parts", encoded(parts)},
+            {"full_displacement_m", full_displacement},
+            {"full_stress_Pa", full_stress},
+            {"positions", std::move(positions)}};
+  if (!mesh.layer_edges.empty()) json["layer_edges"] = encoded(edges);
+  return json;
 }
 
 /// The fields under the load cases after the first one, on its mesh.
@@ -176,7 +182,7 @@ Json other_fields_json(const ReportRun<dim>& run) {
   Json all = Json::array();
   for (const LoadedPositions<dim>& load : run.other_loads) {
     Json fields = fields_json(run.wheel->mesh, load.positions);
-    for (const char* of_mesh : {"points", "triangles", "parts"}) fields.erase(of_mesh);
+    for (const char* of_mesh : {"points", "triangles", "parts", "layer_edges"}) fields.erase(of_mesh);
     all.push_back({{"load_case", load.load_case}, {"fields", std::move(fields)}});
   }
   return all;
@@ -237,6 +243,7 @@ Json run_json(const ReportRun<dim>& run) {
       {"history", std::move(history)},
       {"outline_units", outline_units},
       {"outlines", std::move(outlines)}};
+  if (!run.layers.empty()) json["layers"] = {{"radii_m", run.layers.radii}, {"names", run.layers.names}};
   if (run.given) json["given_contours"] = run.given->contours;
   if (run.summary) {
     json["summary"] = Json::parse(summary_json(*run.summary));

@@ -9,6 +9,7 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/page/sector_mesh.h"
+#include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/run_summary.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/shape/surface/surface_mesh.h"
@@ -57,7 +58,7 @@ using ShownPosition = std::conditional_t<dim == 2, MeshPosition, SurfacePosition
 /// The loaded wheel as the page shows it: a plane drawing in 2D, a lit surface in 3D.
 template <int dim>
 struct ShownWheel {
-  std::conditional_t<dim == 2, SectorMesh, SurfaceMesh> mesh;
+  std::conditional_t<dim == 2, SectorMesh, LayeredSurface> mesh;
   std::vector<ShownPosition<dim>> positions;
 };
 
@@ -81,6 +82,7 @@ struct ReportRun {
   std::string load;       ///< as readable text
   ShownUnit objective;
   PolarGrid<dim> grid;
+  LayerCircles layers = {};
   int trials = 0;
   std::map<std::string, int> rejected = {};  ///< trials, by reason
   std::vector<HoleEvents> events = {};       ///< the newest ones, oldest first

@@ -45,6 +45,10 @@ class SectorMeshBuilder {
     mesh_.triangles.insert(mesh_.triangles.end(), {a, b, c});
   }
 
+  void add_layer_edge(std::uint32_t a, std::uint32_t b) {
+    mesh_.layer_edges.insert(mesh_.layer_edges.end(), {a, b});
+  }
+
   SectorMesh mesh() && { return std::move(mesh_); }
 
  private:
@@ -96,6 +100,10 @@ SectorMesh sector_mesh(const LevelSet<2>& psi, const RollingModel<2>& model) {
   const Lattice<2> field_lattice = displacement_lattice(model);
   const std::vector<bool> is_odd_row = rows_of_odd_layers(model);
   SectorMeshBuilder builder(psi, field_lattice, is_odd_row);
+  const auto ends_layer = [&](int cell) {
+    const int row = model.grid.cell_position(cell)[0];
+    return row + 1 < model.grid.cells[0] && model.materials.is_interface(model.grid, row);
+  };
   const int n_cells = psi.lattice.grid().n_cells();
   for (int cell = 0; cell < n_cells; ++cell)
     for (const MaterialPolygon& polygon : polygons[cell])
@@ -108,6 +116,11 @@ SectorMesh sector_mesh(const LevelSet<2>& psi, const RollingModel<2>& model) {
         const Vec<2> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
         corners.push_back(builder.add(cell, a));
         if (builder.has(cell, middle)) corners.push_back(builder.add(cell, middle));
+        if (ends_layer(cell) && a[0] == 1 && b[0] == 1) {
+          if (corners.back() != builder.add(cell, a))
+            builder.add_layer_edge(builder.add(cell, a), corners.back());
+          builder.add_layer_edge(corners.back(), builder.add(cell, b));
+        }
       }
       for (std::size_t k = 2; k < corners.size(); ++k)
         builder.add_triangle(corners[0], corners[k - 1], corners[k]);

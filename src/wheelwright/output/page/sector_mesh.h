@@ -11,11 +11,12 @@ namespace wheelwright {
 /// Points of the material of sector 0, with the data to interpolate a field there, and triangles between
 /// them.
 struct SectorMesh {
-  std::vector<Vec<2>> points;             ///< Cartesian [m]
-  std::vector<int> rows;                  ///< of the cell of every point
-  std::vector<RingCellNodes<2>> nodes;    ///< of that cell
-  std::vector<ShapeFunctions<2>> shapes;  ///< of the fields there, in its cell
-  std::vector<std::uint32_t> triangles;   ///< corners, counter-clockwise
+  std::vector<Vec<2>> points;              ///< Cartesian [m]
+  std::vector<int> rows;                   ///< of the cell of every point
+  std::vector<RingCellNodes<2>> nodes;     ///< of that cell
+  std::vector<ShapeFunctions<2>> shapes;   ///< of the fields there, in its cell
+  std::vector<std::uint32_t> triangles;    ///< corners, counter-clockwise
+  std::vector<std::uint32_t> layer_edges;  ///< pairs of points: the edges between layers, of the inner one
 };
 
 /// The mesh of a shape in the plane for the fields of a model. Polygons next to refined ones also

@@ -9,7 +9,7 @@
 #include "wheelwright/files/checksum.h"
 #include "wheelwright/output/export/plugin.h"
 
-// Writes the solid as a 3MF file by lib3mf: one mesh, in millimetres.
+// Writes the bodies of a solid as a 3MF file by lib3mf: one named mesh each, in millimetres.
 
 namespace wheelwright {
 namespace {
@@ -47,28 +47,35 @@ std::string uuid(const SolidMesh& mesh, std::string_view role) {
                      words[2] >> 20, words[2] & 0xffff, words[3]);
 }
 
-std::string file(const SolidModel& solid) {
+/// Adds a body to a model. `role` distinguishes its UUIDs from those of other bodies.
+void add(const SolidBody& body, const std::string& role, NMR::PLib3MFModel* model) {
   using namespace NMR;
-  const SolidMesh& mesh = solid.mesh;
+  const SolidMesh& mesh = body.mesh;
   std::vector<MODELMESHVERTEX> vertices;
   for (const auto& p : mesh.points) vertices.push_back({{p[0], p[1], p[2]}});
   std::vector<MODELMESHTRIANGLE> triangles;
   for (const auto& t : mesh.triangles)
     triangles.push_back({{static_cast<DWORD>(t[0]), static_cast<DWORD>(t[1]), static_cast<DWORD>(t[2])}});
+  const auto object =
+      made<PLib3MFModelMeshObject>([&](auto o) { return lib3mf_model_addmeshobject(model, o); });
+  check(lib3mf_object_setnameutf8(object.get(), body.name.c_str()));
+  check(lib3mf_object_setuuidutf8(object.get(), uuid(mesh, "object" + role).c_str()));
+  check(lib3mf_meshobject_setgeometry(object.get(), vertices.data(), static_cast<DWORD>(vertices.size()),
+                                      triangles.data(), static_cast<DWORD>(triangles.size())));
+  const auto item = made<PLib3MFModelBuildItem>(
+      [&](auto i) { return lib3mf_model_addbuilditem(model, object.get(), nullptr, i); });
+  check(lib3mf_builditem_setuuidutf8(item.get(), uuid(mesh, "item" + role).c_str()));
+}
+
+std::string file(const SolidModel& solid) {
+  using namespace NMR;
   const auto model = made<PLib3MFModel>([](auto m) { return lib3mf_createmodel(m); });
   check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER));
   check(lib3mf_model_addmetadatautf8(model.get(), "Title", solid.title.c_str()));
   check(lib3mf_model_addmetadatautf8(model.get(), "Application", solid.program.c_str()));
-  const auto object =
-      made<PLib3MFModelMeshObject>([&](auto o) { return lib3mf_model_addmeshobject(model.get(), o); });
-  check(lib3mf_object_setnameutf8(object.get(), "wheel"));
-  check(lib3mf_object_setuuidutf8(object.get(), uuid(mesh, "object").c_str()));
-  check(lib3mf_meshobject_setgeometry(object.get(), vertices.data(), static_cast<DWORD>(vertices.size()),
-                                      triangles.data(), static_cast<DWORD>(triangles.size())));
-  const auto item = made<PLib3MFModelBuildItem>(
-      [&](auto i) { return lib3mf_model_addbuilditem(model.get(), object.get(), nullptr, i); });
-  check(lib3mf_builditem_setuuidutf8(item.get(), uuid(mesh, "item").c_str()));
-  check(lib3mf_model_setbuilduuidutf8(model.get(), uuid(mesh, "build").c_str()));
+  for (const SolidBody& body : solid.bodies)
+    add(body, &body == &solid.bodies.front() ? "" : body.name, model.get());
+  check(lib3mf_model_setbuilduuidutf8(model.get(), uuid(solid.bodies.front().mesh, "build").c_str()));
   const auto writer =
       made<PLib3MFModelWriter>([&](auto w) { return lib3mf_model_querywriter(model.get(), "3mf", w); });
   ULONG64 size = 0;

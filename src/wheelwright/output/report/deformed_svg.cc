@@ -110,15 +110,49 @@ std::string coloured_paths(const PictureScalar& scalar, const ColourScale& scale
   return svg;
 }
 
-/// The material, in units of its own coordinates.
-std::string material_svg(const PictureScalar& scalar, const ColourScale& scale, const PictureView& view,
-                         const DeformedPicture<2>& picture) {
+/// psi in a column of a sector, at the inner edge of a row and a part of the column's angle.
+double value_on_line(const LevelSet<2>& psi, int row, int column, double part) {
+  const auto at_nodes = psi.cell_values(psi.lattice.grid().cell_index({row, column}));
+  const ShapeFunctions<2> shape(psi.lattice.degree(), {0, part});
+  double value = 0;
+  for (size_t a = 0; a < at_nodes.size(); ++a) value += shape.value[a] * at_nodes[a];
+  return value;
+}
+
+/// Where the deformed circles between layers lie in the material, in units of the material's picture.
+std::string layer_path(const LevelSet<2>& psi, const DeformedMaterial& material,
+                       const DeformedPicture<2>& picture, const PictureView& view) {
+  constexpr int parts = 8;  // of a cell
+  const PolarGrid<2>& grid = psi.lattice.grid();
+  std::string path;
+  for (const double radius : picture.layers.radii) {
+    const int row = grid.nearest_line(radius).line;
+    bool is_drawing = false;
+    for (int k = 0; k <= parts * grid.columns() * grid.n_sectors; ++k) {
+      const int column = k / parts;
+      const double part = static_cast<double>(k % parts) / parts;
+      if (value_on_line(psi, row, column % grid.columns(), part) < 0) {
+        const double azimuth = (column + part) * grid.cell_size()[1];
+        const PicturePoint p = picture_point(material.drawn(cartesian<2>({radius, azimuth})), view);
+        path += fmt::format("{}{} {}", is_drawing ? 'L' : 'M', p[0], p[1]);
+        is_drawing = true;
+      } else {
+        is_drawing = false;
+      }
+    }
+  }
+  return path;
+}
+
+/// The material with the circles between its layers, in units of its own coordinates.
+std::string material_svg(const PictureScalar& scalar, const std::string& layers, const ColourScale& scale,
+                         const PictureView& view, const DeformedPicture<2>& picture) {
   const double units = units_per_pixel * view.size;
   return fmt::format(
              "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" viewBox=\"0 0 {3} {3}\" "
              "overflow=\"{4}\">\n",
              view.left, view.top, view.size, units, picture.window ? "hidden" : "visible") +
-         coloured_paths(scalar, scale) + "</svg>\n";
+         coloured_paths(scalar, scale) + layer_lines(layers, units_per_pixel) + "</svg>\n";
 }
 
 struct Peak {
@@ -207,6 +241,7 @@ std::string deformed_document(const DeformedPicture<dim>& picture, const std::st
          fmt::format("<text x=\"{}\" y=\"60\">{}</text>\n", P::margin, facts(picture)) + wheel +
          colour_bar(scale, picture.scalar.name, picture.scalar.unit, P::margin + P::wheel_size + 40,
                     P::top + 0.5 * P::wheel_size + 160) +
+         layer_legend(picture.layers, P::margin + P::wheel_size + 40, P::top + 0.5 * P::wheel_size + 210) +
          notes + "</svg>\n";
 }
 
@@ -245,7 +280,8 @@ std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
   return deformed_document(
       picture,
       (picture.window ? "" : undeformed_mark(view, grid.inner_radius, grid.outer_radius)) +
-          material_svg(picture_scalar(pieces, view), scale, view, picture) +
+          material_svg(picture_scalar(pieces, view), layer_path(psi, material, picture, view), scale, view,
+                       picture) +
           marks(material, grid, picture, view) + peak_svg(material, pieces, picture, view),
       scale, height_of_foot, is_pressed ? footnote(picture.magnification, height_of_foot) : "");
 }

@@ -39,6 +39,7 @@ struct DeformedPicture {
   std::vector<ContactPoint> contact;  ///< of this position; its pressure is shown in a window
   /// The largest scalar and its place before the deformation (body frame); absent: that of the drawn points.
   std::optional<DrawnPeak<dim>> peak;
+  LayerCircles layers = {};
 };
 
 /// The largest of 1, 2, 5, 10, 20, ... with which no displacement is drawn larger than 5 % of the wheel's
@@ -47,7 +48,8 @@ double picture_magnification(const RingField& displacement, double outer_radius)
 
 /// The picture as an SVG document: the material with colours between level lines, their scale, the ground as
 /// a line that the tread touches or the rigid ring round a bonded tread, load, position and magnification,
-/// and the place of the largest scalar. `lattice` carries the fields, on psi's grid.
+/// the place of the largest scalar, and the deformed circles between layers. `lattice` carries the fields, on
+/// psi's grid.
 std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
                          const DeformedPicture<2>& picture);
 

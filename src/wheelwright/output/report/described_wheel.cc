@@ -135,6 +135,7 @@ DescribedWheel<dim> described_solution(const StateSolver<dim>& solver, const Lev
                             .outline = OutlineMeasures{},
                             .loaded = loaded_wheel(solver, psi, states),
                             .own = own_numbers ? own_numbers(states) : std::vector<OwnNumber>()};
+  wheel.layers = layer_circles(solver.model().materials);
   if (!cases.empty()) wheel.load_case = cases.front().name;
   for (std::size_t k = 1; k < cases.size(); ++k) {
     DescribedWheel<dim> other = wheel;
@@ -191,16 +192,22 @@ Converges convergence(const Quantity& quantity) {
 
 /// A number that is a quantity of cases; by default with its label.
 template <int dim>
-WheelNumber<dim> number(std::string_view quantity,
-                        std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&),
+WheelNumber<dim> number(const Quantity& of,
+                        std::function<std::optional<KnownNumber>(const DescribedWheel<dim>&)> value,
                         std::string_view own_label = {}) {
-  const Quantity& of = built_in(quantity);
   return {own_label.empty() ? label(of) : std::string(own_label),
           kind(of),
           number_key(of, dim),
-          value,
+          std::move(value),
           of->of == Positions::none,
           convergence(of)};
+}
+
+template <int dim>
+WheelNumber<dim> number(std::string_view quantity,
+                        std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&),
+                        std::string own_label = {}) {
+  return number<dim>(built_in(quantity), value, std::move(own_label));
 }
 
 template <int dim>
@@ -319,15 +326,39 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
 }
 
 template <int dim>
+std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer) {
+  using Value = std::optional<double> (*)(const LayerResults&, double width);
+  const auto of_layer = [&](std::string_view quantity, Value value) {
+    const auto of_wheel = [layer, value](const DescribedWheel<dim>& wheel) {
+      return under_load(wheel, [&](const LoadedWheel<dim>& loaded) -> Number {
+        const auto& layers = loaded.rolling.layers;
+        const auto found = std::ranges::find(layers, layer, &LayerResults::name);
+        const auto known = found == layers.end() ? std::nullopt : value(*found, width(wheel));
+        return known ? Number(*known) : std::nullopt;
+      });
+    };
+    return number<dim>(in_part(built_in(quantity), {layer, 0, 0}), of_wheel);
+  };
+  return {
+      of_layer("mass", [](const LayerResults& l,
+                          double width) { return l.mass ? std::optional(*l.mass * width) : std::nullopt; }),
+      of_layer("peak_von_mises",
+               [](const LayerResults& l, double) { return std::optional(l.peak_von_mises); }),
+      of_layer("largest_strain",
+               [](const LayerResults& l, double) { return std::optional(l.largest_strain); })};
+}
+
+template <int dim>
 std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel) {
   std::vector<WheelNumber<dim>> all = wheel_numbers<dim>();
+  for (const std::string& layer : wheel.layers.names)
+    std::ranges::copy(layer_numbers<dim>(layer), std::back_inserter(all));
   for (const OwnNumber& own : wheel.own)
-    all.push_back({label(own.quantity), kind(own.quantity), number_key(own.quantity, dim),
-                   [quantity = own.quantity](const DescribedWheel<dim>& of) -> Number {
-                     const auto found = std::ranges::find(of.own, quantity, &OwnNumber::quantity);
-                     return found == of.own.end() ? std::nullopt : Number(found->value);
-                   },
-                   own.quantity->of == Positions::none, convergence(own.quantity)});
+    all.push_back(
+        number<dim>(own.quantity, [quantity = own.quantity](const DescribedWheel<dim>& of) -> Number {
+          const auto found = std::ranges::find(of.own, quantity, &OwnNumber::quantity);
+          return found == of.own.end() ? std::nullopt : Number(found->value);
+        }));
   return all;
 }
 
@@ -388,6 +419,7 @@ template decltype(outline_measures<2>) outline_measures<2>;
 template decltype(roughness<2>) roughness<2>;
 template decltype(known_value<2>) known_value<2>;
 template decltype(wheel_numbers<2>) wheel_numbers<2>;
+template decltype(layer_numbers<2>) layer_numbers<2>;
 template decltype(numbers_of<2>) numbers_of<2>;
 template decltype(described_wheel<3>) described_wheel<3>;
 template decltype(described_solution<3>) described_solution<3>;
@@ -398,6 +430,7 @@ template decltype(outline_measures<3>) outline_measures<3>;
 template decltype(roughness<3>) roughness<3>;
 template decltype(known_value<3>) known_value<3>;
 template decltype(wheel_numbers<3>) wheel_numbers<3>;
+template decltype(layer_numbers<3>) layer_numbers<3>;
 template decltype(numbers_of<3>) numbers_of<3>;
 
 }  // namespace wheelwright

@@ -11,6 +11,7 @@
 #include "wheelwright/cad/outline/outline.h"
 #include "wheelwright/cad/outline/roughness.h"
 #include "wheelwright/mechanics/state/load_case.h"
+#include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
@@ -61,6 +62,7 @@ struct DescribedWheel {
   Expected<OutlineMeasures, cad::OutlineFault> outline;  ///< fails if no curves can be fitted
   Expected<LoadedWheel<dim>> loaded;                     ///< fails like the contact problem
   std::vector<OwnNumber> own = {};                       ///< of the load case
+  LayerCircles layers = {};
   std::string load_case = {};               ///< of these numbers; empty: the wheel has only one load
   std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
   /// For estimates of discretization errors, under the same load; null: none are wanted.
@@ -132,7 +134,11 @@ struct WheelNumber {
 template <int dim>
 const std::vector<WheelNumber<dim>>& wheel_numbers();
 
-/// These, and the wheel's own ones.
+/// The numbers of a layer of the ring.
+template <int dim>
+std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer);
+
+/// The numbers of wheels, those of the wheel's layers, and the wheel's own ones.
 template <int dim>
 std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel);
 

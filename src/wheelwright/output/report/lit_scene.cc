@@ -180,6 +180,10 @@ Vec<3> Camera::turned(const Vec<3>& direction) const {
   return {dot<3>(axes_[0], direction), dot<3>(axes_[1], direction), dot<3>(axes_[2], direction)};
 }
 
+Vec<3> Camera::direction(const Vec<3>& turned) const {
+  return turned[0] * axes_[0] + turned[1] * axes_[1] + turned[2] * axes_[2];
+}
+
 Vec<3> Camera::seen(const Vec<3>& point) const { return turned(point - centre_) / half_; }
 
 Image lit_image(const std::vector<LitBody>& bodies, const Camera& camera, int pixels) {

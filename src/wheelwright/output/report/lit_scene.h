@@ -27,6 +27,9 @@ class Camera {
   /// A direction in the same axes, not scaled.
   Vec<3> turned(const Vec<3>& direction) const;
 
+  /// The opposite: the direction in the scene of one in the camera's axes.
+  Vec<3> direction(const Vec<3>& turned) const;
+
  private:
   std::array<Vec<3>, 3> axes_;
   Vec<3> centre_;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "wheelwright/output/report/colour_map.h"
+#include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/surface_vtp.h"
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/shape/geometry/cell_map.h"
@@ -18,6 +19,7 @@ using P = DeformedLayout;
 constexpr double caption_height = 64;  // [pixels]
 constexpr int image_pixels = 1040;     // for screens with several pixels per unit of the picture
 constexpr double half_view = 1.1;      // over the wheel's radius
+constexpr double line_width = 0.004;   // of lines between layers, over the wheel's radius
 
 /// How far magnified displacements move the tread below the ground, if there is one, at the displacement's
 /// nodes there.
@@ -84,6 +86,36 @@ ColourScale scale_of(const std::vector<float>& values, const DeformedPicture<3>&
   return scale;
 }
 
+/// Edges of a surface as ribbons of that width, as far off it towards the viewer.
+LitBody ribbons(const std::vector<Vec<3>>& points, const std::vector<std::array<int, 2>>& edges,
+                const Camera& camera, double width, double off, const Rgb& colour) {
+  LitBody body{.points = {}, .triangles = {}, .colours = {}, .is_lit = false};
+  const Vec<3> nearer = camera.direction({0, 0, off});
+  for (const auto& [a, b] : edges) {
+    const Vec<3> along = camera.turned(points[b] - points[a]);
+    const double length = std::hypot(along[0], along[1]);
+    if (!(length > 0)) continue;
+    const Vec<3> side = 0.5 * width / length * camera.direction({-along[1], along[0], 0});
+    const int first = static_cast<int>(body.points.size());
+    for (const Vec<3>& corner : {points[a] - side, points[b] - side, points[b] + side, points[a] + side})
+      body.points.push_back(corner + nearer);
+    body.triangles.push_back({first, first + 1, first + 2});
+    body.triangles.push_back({first, first + 2, first + 3});
+  }
+  body.colours.assign(body.points.size(), colour);
+  return body;
+}
+
+/// Adds the lines between layers, visible on light and dark colours. `points`: of the drawn surface.
+void add_layer_lines(const LayeredSurface& surface, const std::vector<Vec<3>>& points,
+                     const PolarGrid<3>& grid, std::vector<LitBody>& bodies) {
+  constexpr Rgb white{0xff, 0xff, 0xff}, ink{0x24, 0x29, 0x2f};
+  if (surface.layer_edges.empty()) return;
+  const double width = line_width * grid.outer_radius;
+  bodies.push_back(ribbons(points, surface.layer_edges, wheel_camera(grid), 2 * width, width, white));
+  bodies.push_back(ribbons(points, surface.layer_edges, wheel_camera(grid), width, 1.5 * width, ink));
+}
+
 /// The ground under the wheel.
 LitBody lit_ground(const PolarGrid<3>& grid, const Ground& ground) {
   constexpr Rgb grey{0xe4, 0xe7, 0xea};
@@ -128,11 +160,15 @@ Camera wheel_camera(const PolarGrid<3>& grid) {
   return {yaw, pitch, {}, half_view * std::hypot(grid.outer_radius, 0.25 * grid.width)};
 }
 
-LitBody lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid) {
+std::vector<LitBody> lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid,
+                               const LayerCircles& layers) {
   constexpr Rgb blue{0x6f, 0x9a, 0xc4};
-  return {.points = standing_on_the_ground(surface.points, grid, 0),
-          .triangles = surface.triangles,
-          .colours = std::vector<Rgb>(surface.points.size(), blue)};
+  std::vector<LitBody> bodies{{.points = standing_on_the_ground(surface.points, grid, 0),
+                               .triangles = surface.triangles,
+                               .colours = std::vector<Rgb>(surface.points.size(), blue)}};
+  const LayeredSurface layered = layered_surface(surface, grid, layers.radii);
+  add_layer_lines(layered, standing_on_the_ground(layered.points, grid, 0), grid, bodies);
+  return bodies;
 }
 
 std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
@@ -155,9 +191,10 @@ std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
   return result;
 }
 
-std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
+std::string deformed_svg(const SurfaceMesh& whole, const Lattice<3>& lattice,
                          const DeformedPicture<3>& picture) {
   const PolarGrid<3>& grid = lattice.grid();
+  const LayeredSurface surface = layered_surface(whole, grid, picture.layers.radii);
   const FieldPoints<3> fields = field_points(surface, lattice);
   const auto displacement = fields.values({"displacement", "m", picture.displacement});
   const auto scalar = fields.values(picture.scalar)[0];
@@ -166,6 +203,7 @@ std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
                                              picture.contact_azimuth);
   std::vector<LitBody> bodies{
       {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}};
+  add_layer_lines(surface, points, grid, bodies);
   if (!picture.is_bonded) bodies.insert(bodies.begin(), lit_ground(grid, picture.ground));
   const Image image = lit_image(bodies, wheel_camera(grid), image_pixels);
   const bool is_pressed = Press(lattice, picture).maximum() > 0.002 * grid.outer_radius;

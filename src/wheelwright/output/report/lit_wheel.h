@@ -17,8 +17,9 @@ std::vector<Vec<3>> standing_on_the_ground(std::vector<Vec<3>> points, const Pol
 /// A view of the whole wheel from the right and from above.
 Camera wheel_camera(const PolarGrid<3>& grid);
 
-/// A surface without load, in one colour, in the scene of that view.
-LitBody lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid);
+/// A surface without load, in one colour, with lines between layers, in the scene of that view.
+std::vector<LitBody> lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid,
+                               const LayerCircles& layers = {});
 
 /// Points of the body frame, displaced for a picture: `displacement` [component][point], magnified. Like
 /// DeformedMaterial, moves onto the ground points of the tread that magnified displacements would move
@@ -27,8 +28,8 @@ std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
                               const std::vector<std::vector<float>>& displacement, const Lattice<3>& lattice,
                               const DeformedPicture<3>& picture);
 
-/// The picture as an SVG document: the lit surface with its colours, which holds pixels, the ground, the
-/// colours' scale, load, position and magnification.
+/// The picture as an SVG document: the lit surface with its colours, which holds pixels, lines between
+/// layers, the ground, the colours' scale, load, position and magnification.
 std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
                          const DeformedPicture<3>& picture);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wheelwright/output/report/sector_picture.h"
+#include "wheelwright/output/report/svg.h"
 
 namespace wheelwright {
 namespace {
@@ -43,18 +44,23 @@ std::string legend_entry(double x, const char* colour, const std::string& text) 
 
 }  // namespace
 
-std::string mesh_svg(const LevelSet<2>& psi, const CutDomain<2>& domain, const std::string& title) {
+std::string mesh_svg(const LevelSet<2>& psi, const CutDomain<2>& domain, const std::string& title,
+                     const LayerCircles& layers) {
   const PolarGrid<2>& grid = domain.grid;
   const auto cells = [&](CellKind kind) {
     return grid.n_sectors * std::count(domain.kinds.begin(), domain.kinds.end(), kind);
   };
   constexpr double left = SectorPicture::margin;
   return wheel_document(
-      SectorPicture::wheel_size + 2 * left, title, grid.n_sectors, sector_drawing(psi, domain), "",
+      SectorPicture::wheel_size + 2 * left, title, grid.n_sectors, sector_drawing(psi, domain),
+      SectorPicture(psi).circles(layers),
       legend_entry(left, inside_colour, fmt::format("{} cells inside", cells(CellKind::inside))) +
           legend_entry(left + 180, cut_material_colour,
                        fmt::format("{} cells cut, material and hole", cells(CellKind::cut))) +
-          legend_entry(left + 440, "#ffffff", fmt::format("{} cells outside", cells(CellKind::outside))));
+          legend_entry(left + 440, "#ffffff", fmt::format("{} cells outside", cells(CellKind::outside))) +
+          (layers.empty() ? ""
+                          : fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", left,
+                                        SectorPicture::height - 8, escape_xml(text(layers)))));
 }
 
 }  // namespace wheelwright

@@ -31,15 +31,22 @@ void add_with_errors(const std::vector<WheelNumber<dim>>& numbers, const Describ
   if (!missing_errors.empty()) json["missing_errors"] = std::move(missing_errors);
 }
 
+/// A place in the body, and the load position, whose azimuth is that of the ground.
+template <int dim, class Place>
+Json place_json(const Place& place, double ground) {
+  Json json{{"radius_m", place[0]}, {"azimuth_rad", place[1]}, {"load_position_rad", ground}};
+  if constexpr (dim == 3) json["z_m"] = place[2];
+  return json;
+}
+
 /// Facts about the load that the numbers do not contain.
 template <int dim>
 void add_details(const LoadedWheel<dim>& loaded, Json& json) {
   const ShapeSummary<dim>& summary = loaded.summary;
   json["pressure_spread"] = summary.rolling.pressure_spread;
-  json["peak_von_mises_place"] = {{"radius_m", summary.von_mises.place[0]},
-                                  {"azimuth_rad", summary.von_mises.place[1]},
-                                  {"load_position_rad", summary.von_mises.ground_azimuth}};
-  if constexpr (dim == 3) json["peak_von_mises_place"]["z_m"] = summary.von_mises.place[2];
+  json["peak_von_mises_place"] = place_json<dim>(summary.von_mises.place, summary.von_mises.ground_azimuth);
+  for (const LayerResults& layer : loaded.rolling.layers)
+    json["peak_von_mises_place of " + layer.name] = place_json<dim>(layer.peak_place, layer.peak_ground);
   json["linear_theory"] = to_json(loaded.deformation.error);
   json["edges_overlap"] = loaded.deformation.edges_overlap;
 }

@@ -345,6 +345,59 @@ std::string stress_line(const RollingReport& report) {
       a.peak_radius * mm, a.peak_azimuth * degree, a.azimuths[a.most_stressed] * degree);
 }
 
+/// A number of a layer; nothing if it has none.
+struct LayerNumber {
+  const char *key, *heading;
+  double factor;  ///< from SI units to those of the heading
+  std::function<std::optional<double>(const LayerResults&)> value;
+  Converges converges;
+};
+
+/// In the order of tables and JSON.
+std::vector<LayerNumber> layer_numbers(const RollingReport& report) {
+  return {{"mass_kg", "mass [kg]", 1,
+           [width = forces(report)](const LayerResults& layer) {
+             return layer.mass ? std::optional(*layer.mass * width) : std::nullopt;
+           },
+           Converges::as_an_integral},
+          {"peak_von_mises_Pa", "von Mises [MPa]", MPa,
+           [](const LayerResults& layer) { return std::optional(layer.peak_von_mises); },
+           Converges::as_an_extreme},
+          {"largest_strain", "strain [%]", 100,
+           [](const LayerResults& layer) { return std::optional(layer.largest_strain); },
+           Converges::as_an_extreme}};
+}
+
+/// Nothing if it is not known.
+std::optional<double> error_of(const LayerNumber& number, const RollingReport& report, size_t layer) {
+  if (!finer(report)) return {};
+  const auto value = number.value(report.analysis.layers[layer]),
+             on_finer = number.value(finer(report)->analysis.layers[layer]);
+  if (!value || !on_finer) return {};
+  return discretization_error(*value, *on_finer, finer(report)->refinement, number.converges);
+}
+
+/// One line per layer, from the rim to the tread.
+std::string layer_lines(const RollingReport& report) {
+  const auto& layers = report.analysis.layers;
+  const auto numbers = layer_numbers(report);
+  std::string table = fmt::format("{:<16}", "layer");
+  for (const LayerNumber& number : numbers) table += fmt::format("{:>20}", number.heading);
+  table += fmt::format("{:>13}{:>14}{:>17}\n", "at r [mm]", "azimuth [deg]", "ground at [deg]");
+  for (size_t k = 0; k < layers.size(); ++k) {
+    table += fmt::format("{:<16}", layers[k].name);
+    for (const LayerNumber& number : numbers) {
+      const auto value = number.value(layers[k]);
+      table += fmt::format(
+          "{:>20}",
+          value ? with_known_error(*value, error_of(number, report, k).value_or(NAN), number.factor) : "-");
+    }
+    table += fmt::format("{:13.1f}{:14.2f}{:17.2f}\n", layers[k].peak_place[0] * mm,
+                         layers[k].peak_place[1] * degree, layers[k].peak_ground * degree);
+  }
+  return table;
+}
+
 /// The position with the largest error of linear theory.
 const PositionDeformation& least_linear(const RollingAnalysis& analysis) {
   return *std::ranges::max_element(analysis.deformations, {}, [](const PositionDeformation& position) {
@@ -438,6 +491,24 @@ Json positions_json(const RollingReport& report) {
   return positions;
 }
 
+Json layers_json(const RollingReport& report) {
+  Json layers = Json::array();
+  for (size_t k = 0; k < report.analysis.layers.size(); ++k) {
+    const LayerResults& layer = report.analysis.layers[k];
+    Json json{{"name", layer.name}};
+    for (const LayerNumber& number : layer_numbers(report)) {
+      if (const auto value = number.value(layer)) json[number.key] = *value;
+      if (const auto error = error_of(number, report, k)) json["errors"][number.key] = *error;
+    }
+    json["peak_von_mises_place"] = {{"radius_m", layer.peak_place[0]},
+                                    {"azimuth_rad", layer.peak_place[1]},
+                                    {"load_position_rad", layer.peak_ground}};
+    if (report.dimension == 3) json["peak_von_mises_place"]["z_m"] = layer.peak_place[2];
+    layers.push_back(std::move(json));
+  }
+  return layers;
+}
+
 Json loads_json(const RollingReport& report) {
   Json loads = Json::array();
   for (size_t k = 0; k < report.loads.size(); ++k) {
@@ -499,7 +570,9 @@ std::string rolling_table(const RollingReport& report) {
   std::string table = position_lines(report) + '\n';
   if (has_friction(report)) table += friction_lines(report) + '\n';
   if (std::ranges::any_of(report.analysis.positions, has_gaps)) table += gap_lines(report) + '\n';
-  table += variation_lines(report) + '\n' + stress_line(report) + linear_theory_lines(report);
+  table += variation_lines(report) + '\n';
+  if (!report.analysis.layers.empty()) table += layer_lines(report) + '\n';
+  table += stress_line(report) + linear_theory_lines(report);
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   if (report.accurate) table += '\n' + accuracy_table(*report.accurate);
@@ -527,6 +600,7 @@ std::string rolling_json(const RollingReport& report) {
             {"force_at_travel_N", variation(all[1], forces(report))},
             {"peak_pressure_Pa", variation(all[2], 1)}};
   if (finer(report)) json["peak_von_mises"]["error_Pa"] = stress_error(report);
+  if (!a.layers.empty()) json["layers"] = layers_json(report);
   if (report.finer && !*report.finer) json["missing_errors"] = report.finer->failure();
   if (!a.travel_at_load) json["missing"]["travel_at_load_m"] = to_string(a.travel_at_load.failure());
   if (!a.force_at_travel) json["missing"]["force_at_travel_N"] = to_string(a.force_at_travel.failure());

@@ -32,8 +32,9 @@ struct RollingReport {
 };
 
 /// For display: one line per load position, another one if there is friction or torque, variations in
-/// rolling, one line per load, and what could not be computed and why. A line below the positions has the
-/// largest error of each column, and one below each variation its errors. Last, the accuracy_table().
+/// rolling, one line per layer of materials, one line per load, and what could not be computed and why. A
+/// line below the positions has the largest error of each column, and one below each variation its errors.
+/// Last, the accuracy_table().
 std::string rolling_table(const RollingReport& report);
 
 /// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double;

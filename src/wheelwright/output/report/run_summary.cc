@@ -16,15 +16,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Where the stress of the last shape is largest; empty if unknown.
+/// Where the stress of the last shape is largest, also in every layer; empty if unknown.
 template <int dim>
-std::string stress_line(const DescribedWheel<dim>& wheel) {
+std::string stress_lines(const DescribedWheel<dim>& wheel) {
   if (!wheel.loaded) return "";
-  constexpr double mm = 1e3, degree = 180 / std::numbers::pi;
+  const auto line = [](const std::string& of, double radius, double azimuth, double ground) {
+    constexpr double mm = 1e3, degree = 180 / std::numbers::pi;
+    return fmt::format(
+        "the stress{} is largest at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at {:.2f} deg\n",
+        of, radius * mm, azimuth * degree, ground * degree);
+  };
   const StressPeak<dim>& peak = wheel.loaded->summary.von_mises;
-  return fmt::format(
-      "the stress is largest at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at {:.2f} deg\n",
-      peak.place[0] * mm, peak.place[1] * degree, peak.ground_azimuth * degree);
+  std::string lines = line("", peak.place[0], peak.place[1], peak.ground_azimuth);
+  for (const LayerResults& layer : wheel.loaded->rolling.layers)
+    lines += line(" of " + layer.name, layer.peak_place[0], layer.peak_place[1], layer.peak_ground);
+  return lines;
 }
 
 template <int dim>
@@ -104,7 +110,7 @@ std::vector<std::string> missing_lines(const RunSummary<dim>& summary) {
 template <int dim>
 std::string summary_table(const RunSummary<dim>& summary) {
   const std::string remarks = remarks_text(summary.remarks);
-  return comparison_table({"before", "after"}, rows(summary)) + stress_line(summary.after.wheel) +
+  return comparison_table({"before", "after"}, rows(summary)) + stress_lines(summary.after.wheel) +
          (remarks.empty() ? "" : "\nworse than before:\n" + remarks) +
          (summary.changed_start.empty() ? "" : "\n" + summary.changed_start + "\n");
 }

@@ -44,6 +44,12 @@ std::string SectorPicture::grid_lines() const {
   return path;
 }
 
+std::string SectorPicture::circles(const LayerCircles& layers) const {
+  std::string path;
+  for (const double radius : layers.radii) path += circle_path(radius * scale_, 0);
+  return layer_lines(path, units_per_pixel);
+}
+
 PicturePoint SectorPicture::point(const Vec<2>& x) const {
   return {static_cast<int>(std::lround(x[0] * scale_)), static_cast<int>(std::lround(-x[1] * scale_))};
 }

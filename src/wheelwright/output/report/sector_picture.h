@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/output/report/picture_polygon.h"
 #include "wheelwright/shape/geometry/contour.h"
 #include "wheelwright/shape/geometry/level_set.h"
@@ -24,6 +25,9 @@ class SectorPicture {
 
   /// Circles and rays along all sides of cells; the last ray is the next sector's first.
   std::string grid_lines() const;
+
+  /// The circles between layers, for `on_wheel` of the document.
+  std::string circles(const LayerCircles& layers) const;
 
   double units_per_metre() const { return scale_; }
 

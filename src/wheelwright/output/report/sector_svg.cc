@@ -120,13 +120,14 @@ std::vector<double> means_in_cells(const PolarGrid<2>& grid, std::span<const Sur
   return sums;
 }
 
-std::string sector_svg(const LevelSet<2>& psi, const SectorScalar& scalar, const std::string& title) {
+std::string sector_svg(const LevelSet<2>& psi, const SectorScalar& scalar, const std::string& title,
+                       const LayerCircles& layers) {
   const SectorPicture picture(psi);
   const SymmetricScale scale = scale_of(scalar.values);
   const double bar_left = 2 * SectorPicture::margin + SectorPicture::wheel_size;
-  return wheel_document(bar_left + bar_space, title, psi.lattice.grid().n_sectors,
-                        coloured_cells(picture, scalar, scale), edges(psi, picture.units_per_metre()),
-                        signed_bar(scale, scalar, bar_left));
+  return wheel_document(
+      bar_left + bar_space, title, psi.lattice.grid().n_sectors, coloured_cells(picture, scalar, scale),
+      picture.circles(layers) + edges(psi, picture.units_per_metre()), signed_bar(scale, scalar, bar_left));
 }
 
 }  // namespace wheelwright

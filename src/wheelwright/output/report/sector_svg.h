@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/shape/geometry/level_set.h"
 
 namespace wheelwright {
@@ -23,7 +24,9 @@ std::vector<double> values_in_parts(const LevelSet<2>& nodal, int parts);
 std::vector<double> means_in_cells(const PolarGrid<2>& grid, std::span<const SurfaceSample<2>> samples);
 
 /// The undeformed wheel with the edges of the material of psi, coloured by the scalar: white is 0, red is
-/// positive and blue negative. 1 % of the drawn values may lie beyond the ends of the scale.
-std::string sector_svg(const LevelSet<2>& psi, const SectorScalar& scalar, const std::string& title);
+/// positive and blue negative; with circles between layers. 1 % of the drawn values may lie beyond the ends
+/// of the scale.
+std::string sector_svg(const LevelSet<2>& psi, const SectorScalar& scalar, const std::string& title,
+                       const LayerCircles& layers = {});
 
 }  // namespace wheelwright

@@ -21,11 +21,18 @@ Lattice<dim> displacement_lattice(const RollingModel<dim>& model) {
 }
 
 template <int dim>
+std::vector<int> layers_of_rows(const RollingModel<dim>& model) {
+  std::vector<int> result;
+  if (model.materials.layers().size() > 1)
+    for (int row = 0; row < model.grid.cells[0]; ++row)
+      result.push_back(model.materials.layer_at(model.grid.middle_of_row(row)));
+  return result;
+}
+
+template <int dim>
 std::vector<bool> rows_of_odd_layers(const RollingModel<dim>& model) {
-  if (model.materials.layers().size() == 1) return {};
   std::vector<bool> result;
-  for (int row = 0; row < model.grid.cells[0]; ++row)
-    result.push_back(model.materials.layer_at(model.grid.middle_of_row(row)) % 2 == 1);
+  for (const int layer : layers_of_rows(model)) result.push_back(layer % 2 == 1);
   return result;
 }
 
@@ -344,7 +351,8 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .travel = contact.travel(),
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
           .contact = points_at(solver, state, source, position),
-          .von_mises = peak_at(lattice.grid(), state.strain_peaks(), source)};
+          .von_mises = peak_at(lattice.grid(), state.strain_peaks(), source),
+          .layers = layer_circles(solver.model().materials)};
 }
 
 }  // namespace
@@ -422,6 +430,8 @@ template decltype(position_fields<2>) position_fields<2>;
 template decltype(for_each_position<2>) for_each_position<2>;
 template decltype(named_fields<2>) named_fields<2>;
 template Lattice<2> displacement_lattice(const RollingModel<2>&);
+template decltype(layers_of_rows<2>) layers_of_rows<2>;
+template decltype(layers_of_rows<3>) layers_of_rows<3>;
 template decltype(rows_of_odd_layers<2>) rows_of_odd_layers<2>;
 template decltype(rows_of_odd_layers<3>) rows_of_odd_layers<3>;
 template decltype(vertical_field<2>) vertical_field<2>;

@@ -4,6 +4,7 @@
 
 #include "wheelwright/mechanics/state/ring_field.h"
 #include "wheelwright/mechanics/state/state.h"
+#include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/output/report/pressure_csv.h"
 #include "wheelwright/quantities/analysis/all_positions.h"
 
@@ -35,6 +36,7 @@ struct PositionFields {
   RimForce rim_force;     ///< on the rim, per metre of width when dim = 2
   std::vector<ContactPoint> contact;
   DrawnPeak<dim> von_mises;
+  LayerCircles layers = {};
 };
 
 template <int dim>
@@ -65,6 +67,10 @@ Lattice<dim> displacement_lattice(const RollingModel<dim>& model);
 /// jump between layers (RingField). Empty if there is only one layer.
 template <int dim>
 std::vector<bool> rows_of_odd_layers(const RollingModel<dim>& model);
+
+/// The layer of materials of every row of cells, counted from 0 at the rim. Empty if there is only one layer.
+template <int dim>
+std::vector<int> layers_of_rows(const RollingModel<dim>& model);
 
 /// Component of a displacement towards the ground of one load position [m].
 template <int dim>

@@ -11,13 +11,6 @@
 namespace wheelwright {
 namespace {
 
-/// A full circle about the axle, by two arcs.
-std::string circle_path(double radius, int decimals) {
-  return fmt::format(
-      "M{0:.{1}f} 0A{0:.{1}f} {0:.{1}f} 0 1 0 -{0:.{1}f} 0A{0:.{1}f} {0:.{1}f} 0 1 0 {0:.{1}f} 0Z", radius,
-      decimals);
-}
-
 std::string polyline_path(const std::vector<Vec<2>>& points, double units_per_metre, int decimals,
                           double spacing) {
   std::string path;
@@ -100,12 +93,11 @@ text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:
 .material{fill:#3b6ea5;fill-rule:evenodd;stroke:#1f3d5c;stroke-width:8;stroke-linejoin:round}
 .former{fill:none;stroke:#d1495b;stroke-width:11;stroke-dasharray:40 25}
 .rim{fill:none;stroke:#24292f;stroke-width:30}
-.layer{fill:none;stroke:#e8b04b;stroke-width:12}
 </style>
 )";
 
 std::string wheel_panel(const PolarGrid<2>& grid, const WheelState<2>& wheel, double centre_x,
-                        const std::vector<double>& interfaces, std::string_view overlay) {
+                        const LayerCircles& layers, std::string_view overlay) {
   const double scale = 0.5 * wheel_diameter / grid.outer_radius;
   std::string panel = fmt::format("<g transform=\"translate({} {}) scale({})\">\n", centre_x,
                                   top + 0.5 * wheel_diameter, 1.0 / units_per_pixel);
@@ -116,13 +108,15 @@ std::string wheel_panel(const PolarGrid<2>& grid, const WheelState<2>& wheel, do
     return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", kind,
                        circle_path(radius * scale * units_per_pixel, 0));
   };
-  if (!interfaces.empty()) {
+  if (!layers.empty()) {
     const std::string id = fmt::format("material-{}", centre_x);
     panel += fmt::format(
         "<clipPath id=\"{0}\"><path d=\"{1}\" clip-rule=\"evenodd\"/></clipPath>\n<g "
         "clip-path=\"url(#{0})\">\n",
         id, material);
-    for (const double radius : interfaces) panel += circle("layer", radius);
+    std::string circles;
+    for (const double radius : layers.radii) circles += circle_path(radius * scale * units_per_pixel, 0);
+    panel += layer_lines(circles, units_per_pixel);
     panel += "</g>\n";
   }
   panel += circle("rim", grid.inner_radius);
@@ -130,9 +124,10 @@ std::string wheel_panel(const PolarGrid<2>& grid, const WheelState<2>& wheel, do
   return panel + "</g>\n";
 }
 
-std::string wheel_panel(const PolarGrid<3>& grid, const WheelState<3>& wheel, double centre_x) {
+std::string wheel_panel(const PolarGrid<3>& grid, const WheelState<3>& wheel, double centre_x,
+                        const LayerCircles& layers) {
   constexpr int pixels = 720;  // for screens with several pixels per unit of the picture
-  const Image image = lit_image({lit_wheel(wheel.boundary, grid)}, wheel_camera(grid), pixels);
+  const Image image = lit_image(lit_wheel(wheel.boundary, grid, layers), wheel_camera(grid), pixels);
   return fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n",
                      centre_x - 0.5 * wheel_diameter, top, wheel_diameter, data_url(image));
 }
@@ -167,7 +162,8 @@ std::string with_numbers(const Comparison<dim>& comparison, const std::string& f
   const std::string percent = std::isfinite(change) ? fmt::format("  ({})", signed_percentage(change)) : "";
   svg += text(second_middle, first_line, "fact", objective(after.objective) + percent);
   svg += text(second_middle, second_line, "fact", volume(after.volume_fraction));
-  svg += text(0.5 * picture_width, picture_height - 18, "caption", comparison.caption);
+  const std::string of_layers = comparison.layers.empty() ? "" : "; " + text(comparison.layers);
+  svg += text(0.5 * picture_width, picture_height - 18, "caption", comparison.caption + of_layers);
   return svg + "</svg>\n";
 }
 
@@ -190,6 +186,12 @@ std::string escape_xml(std::string_view text) {
       result += c;
   }
   return result;
+}
+
+std::string circle_path(double radius, int decimals) {
+  return fmt::format(
+      "M{0:.{1}f} 0A{0:.{1}f} {0:.{1}f} 0 1 0 -{0:.{1}f} 0A{0:.{1}f} {0:.{1}f} 0 1 0 {0:.{1}f} 0Z", radius,
+      decimals);
 }
 
 std::string titled_svg(double width, double height, std::string_view title, double left) {
@@ -235,14 +237,13 @@ std::string comparison_svg(const PolarGrid<2>& grid, const Comparison<2>& compar
   const double scale = 0.5 * wheel_diameter / grid.outer_radius;
   const std::string former = fmt::format("<path class=\"former\" d=\"{}\"/>\n",
                                          outline_path(thinned(comparison.before.boundary, scale)));
-  return with_numbers(comparison,
-                      wheel_panel(grid, comparison.before, first_middle, comparison.interfaces, ""),
-                      wheel_panel(grid, comparison.after, second_middle, comparison.interfaces, former));
+  return with_numbers(comparison, wheel_panel(grid, comparison.before, first_middle, comparison.layers, ""),
+                      wheel_panel(grid, comparison.after, second_middle, comparison.layers, former));
 }
 
 std::string comparison_svg(const PolarGrid<3>& grid, const Comparison<3>& comparison) {
-  return with_numbers(comparison, wheel_panel(grid, comparison.before, first_middle),
-                      wheel_panel(grid, comparison.after, second_middle));
+  return with_numbers(comparison, wheel_panel(grid, comparison.before, first_middle, comparison.layers),
+                      wheel_panel(grid, comparison.after, second_middle, comparison.layers));
 }
 
 }  // namespace wheelwright

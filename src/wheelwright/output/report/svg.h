@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/shape/geometry/contour.h"
 #include "wheelwright/shape/surface/surface_mesh.h"
 
@@ -17,6 +18,9 @@ std::string escape_xml(std::string_view text);
 
 /// The start of an SVG document of this size in pixels: a white card with the title at `left`.
 std::string titled_svg(double width, double height, std::string_view title, double left);
+
+/// A path along a full circle about the axle, by two arcs, rounded to this number of decimals.
+std::string circle_path(double radius, int decimals);
 
 /// The `d` attribute of a path along the material's boundary, to be filled with the even-odd rule: exact arcs
 /// for rim and tread, polylines for the rest. y points down. Points closer than `spacing` [m] to the last one
@@ -49,7 +53,7 @@ struct Comparison {
   std::string objective_name;  ///< e.g. "strain energy"
   std::string objective_unit;  ///< e.g. "J/m"
   WheelState<dim> before, after;
-  std::vector<double> interfaces = {};  ///< radii between layers of materials, drawn as circles in 2D [m]
+  LayerCircles layers = {};
 };
 
 /// The comparison as an SVG document for pages and README files. In 2D the holes of the first wheel are

@@ -28,6 +28,7 @@ struct SectorCells {
   std::vector<Corner> corners;  ///< of all cells
   std::vector<std::int32_t> offsets;
   std::vector<std::uint8_t> types;
+  std::vector<std::int32_t> layers = {};  ///< of materials, to which the cells belong; empty: there is one
 };
 
 std::vector<MaterialPolygon> triangles(const std::vector<MaterialPolygon>& polygons) {
@@ -52,9 +53,9 @@ float value_at(const LevelSet<dim>& psi, const std::vector<double>& nodal, const
 
 class PlaneCells {
  public:
-  PlaneCells(const LevelSet<2>& psi, int degree, int cut_subdivisions, const std::vector<bool>& is_odd_row,
+  PlaneCells(const LevelSet<2>& psi, int degree, int cut_subdivisions, const std::vector<int>& layer_of_row,
              FieldPoints<2>& field_points)
-      : psi_(psi), is_odd_row_(is_odd_row), field_points_(field_points) {
+      : psi_(psi), layer_of_row_(layer_of_row), field_points_(field_points) {
     const auto polygons = material_polygons(psi, cut_subdivisions);
     const std::vector<MaterialPolygon> squares = parts_of_full_cell(degree);
     for (int cell = 0; cell < psi.lattice.grid().n_cells(); ++cell)
@@ -85,8 +86,8 @@ class PlaneCells {
     const std::vector<double> nodal = psi_.cell_values(cell);
     for (const MaterialPolygon& polygon : polygons) {
       for (const Vec<2>& xi : polygon) {
-        const double in_odd_row = !is_odd_row_.empty() && is_odd_row_[c[0]];
-        const auto [known, is_new] = numbers_.try_emplace({c[0] + xi[0], c[1] + xi[1], in_odd_row},
+        const double layer = layer_of_row_.empty() ? 0 : layer_of_row_[c[0]];
+        const auto [known, is_new] = numbers_.try_emplace({c[0] + xi[0], c[1] + xi[1], layer},
                                                           static_cast<std::int32_t>(cells_.points.size()));
         if (is_new) {
           const Vec<2> x = map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi));
@@ -98,20 +99,21 @@ class PlaneCells {
       }
       cells_.offsets.push_back(static_cast<std::int32_t>(cells_.corners.size()));
       cells_.types.push_back(type);
+      if (!layer_of_row_.empty()) cells_.layers.push_back(layer_of_row_[c[0]]);
     }
   }
 
   const LevelSet<2>& psi_;
-  const std::vector<bool>& is_odd_row_;
+  const std::vector<int>& layer_of_row_;
   FieldPoints<2>& field_points_;
   SectorCells<2> cells_;
-  /// Of the points, by their places in units of cells and whether they belong to odd rows.
+  /// Of the points, by their places in units of cells and their layers.
   std::map<std::array<double, 3>, std::int32_t> numbers_;
 };
 
 SectorCells<2> sector_cells(const LevelSet<2>& psi, int degree, int cut_subdivisions,
-                            const std::vector<bool>& is_odd_row, FieldPoints<2>& field_points) {
-  return PlaneCells(psi, degree, cut_subdivisions, is_odd_row, field_points).finished();
+                            const std::vector<int>& layer_of_row, FieldPoints<2>& field_points) {
+  return PlaneCells(psi, degree, cut_subdivisions, layer_of_row, field_points).finished();
 }
 
 std::uint8_t vtk_number(MaterialCellKind kind) {
@@ -126,8 +128,10 @@ std::uint8_t vtk_number(MaterialCellKind kind) {
   return 0;
 }
 
-/// Gives the cells of odd rows and those of the other rows vertices of their own where they meet.
-void split_between_rows(const std::vector<bool>& is_odd_row, MaterialCells& material) {
+/// Gives the cells of every layer vertices of their own where layers meet. The layers of the cells.
+std::vector<std::int32_t> split_between_layers(const std::vector<int>& layer_of_row,
+                                               MaterialCells& material) {
+  std::vector<std::int32_t> layers;
   std::map<std::array<int, 2>, int> copies;  // by vertex and row
   const auto height = [&](int vertex) {
     return material.places[vertex].cell[0] + material.places[vertex].xi[0];
@@ -138,8 +142,9 @@ void split_between_rows(const std::vector<bool>& is_odd_row, MaterialCells& mate
     double sum = 0;
     for (auto k = corner; k != end; ++k) sum += height(k->vertex);
     const int row = static_cast<int>(sum / n_corners(kind));
+    layers.push_back(layer_of_row[row]);
     for (; corner != end; ++corner) {
-      if (is_odd_row[material.places[corner->vertex].cell[0]] == is_odd_row[row]) continue;
+      if (layer_of_row[material.places[corner->vertex].cell[0]] == layer_of_row[row]) continue;
       const auto [copy, is_new] =
           copies.try_emplace({corner->vertex, row}, static_cast<int>(material.places.size()));
       if (is_new) {
@@ -152,13 +157,16 @@ void split_between_rows(const std::vector<bool>& is_odd_row, MaterialCells& mate
       corner->vertex = copy->second;
     }
   }
+  return layers;
 }
 
 SectorCells<3> sector_cells(const LevelSet<3>& psi, int degree, int cut_subdivisions,
-                            const std::vector<bool>& is_odd_row, FieldPoints<3>& field_points) {
+                            const std::vector<int>& layer_of_row, FieldPoints<3>& field_points) {
   MaterialCells material = material_cells(psi, cut_subdivisions, degree);
-  if (!is_odd_row.empty()) split_between_rows(is_odd_row, material);
+  std::vector<std::int32_t> layers;
+  if (!layer_of_row.empty()) layers = split_between_layers(layer_of_row, material);
   SectorCells<3> cells{.points = material.points, .psi = {}, .corners = {}, .offsets = {}, .types = {}};
+  cells.layers = std::move(layers);
   for (const CellPoint& place : material.places) {
     field_points.add(place.cell, place.xi);
     cells.psi.push_back(
@@ -177,10 +185,10 @@ SectorCells<3> sector_cells(const LevelSet<3>& psi, int degree, int cut_subdivis
 
 template <int dim>
 VtuMesh<dim>::VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int cut_subdivisions,
-                      std::string_view length_unit, const std::vector<bool>& is_odd_row)
+                      std::string_view length_unit, const std::vector<int>& layer_of_row)
     : points_(lattice) {
   const SectorCells<dim> sector_of_cells =
-      sector_cells(psi, lattice.degree(), cut_subdivisions, is_odd_row, points_);
+      sector_cells(psi, lattice.degree(), cut_subdivisions, layer_of_row, points_);
   const int n_sectors = lattice.grid().n_sectors, sector_points = static_cast<int>(points_.size());
   const std::size_t n_points = points_.size() * n_sectors;
   if (n_points > std::numeric_limits<std::int32_t>::max() / 3)
@@ -190,6 +198,7 @@ VtuMesh<dim>::VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int
   std::vector<float> points, level;
   std::vector<std::int32_t> connectivity, offsets;
   std::vector<std::uint8_t> types;
+  std::vector<std::int32_t> layers;
   for (int sector = 0; sector < n_sectors; ++sector) {
     const int first_corner = static_cast<int>(connectivity.size());
     const std::array<int, 2> first_point{sector * sector_points, (sector + 1) % n_sectors * sector_points};
@@ -202,10 +211,13 @@ VtuMesh<dim>::VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int
       connectivity.push_back(first_point[corner.in_next_sector] + corner.point);
     for (const std::int32_t offset : sector_of_cells.offsets) offsets.push_back(first_corner + offset);
     types.insert(types.end(), sector_of_cells.types.begin(), sector_of_cells.types.end());
+    layers.insert(layers.end(), sector_of_cells.layers.begin(), sector_of_cells.layers.end());
   }
   AppendedArrays arrays(0);
-  beginning_ = vtu_beginning(n_points, types.size(), add_mesh(points, connectivity, offsets, types, arrays)) +
-               arrays.add(vtu_name("psi", length_unit), 1, level);
+  std::string mesh = add_mesh(points, connectivity, offsets, types, arrays);
+  if (!layers.empty()) mesh += "  <CellData>\n" + arrays.add("material", 1, layers) + "  </CellData>\n";
+  beginning_ =
+      vtu_beginning(n_points, types.size(), mesh) + arrays.add(vtu_name("psi", length_unit), 1, level);
   arrays_ = std::move(arrays).bytes();
 }
 

@@ -25,10 +25,10 @@ template <int dim>
 class VtuMesh {
  public:
   /// `lattice` carries the fields, on psi's grid. The numbers of grid and psi are written unchanged, in
-  /// `length_unit`. Points between rows that are odd and rows that are not are there twice, once for
-  /// each: fields may jump there (RingField).
+  /// `length_unit`. If the layers of materials of the rows of cells are given, the cells have their numbers
+  /// as `material`, and points between layers are there once for each: fields may jump there (RingField).
   VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int cut_subdivisions,
-          std::string_view length_unit = "m", const std::vector<bool>& is_odd_row = {});
+          std::string_view length_unit = "m", const std::vector<int>& layer_of_row = {});
 
   /// The bytes of a ParaView file with psi and nodal fields; a field's unit follows its name. Scalars,
   /// vectors (dim components) and symmetric tensors (xx, yy, zz, xy, in 3D also yz and xz).

@@ -16,7 +16,9 @@ namespace {
 constexpr std::array colours{"#3b6ea5", "#d1495b", "#2e8b57", "#b8860b", "#7b4fa3", "#008b8b"};
 
 std::string heading(const ComparedWheel& wheel) {
-  return fmt::format("{}, {}", wheel.numbers.name, wheel.numbers.which);
+  const LayerCircles& layers = wheel.numbers.layers;
+  return fmt::format("{}, {}{}", wheel.numbers.name, wheel.numbers.which,
+                     layers.empty() ? "" : "; dashed: " + text(layers));
 }
 
 std::vector<ComparedRow> rows(const std::vector<ComparedWheel>& wheels) {
@@ -77,6 +79,10 @@ std::string overlay_svg(const std::vector<ComparedWheel>& wheels) {
         fmt::format("<path fill=\"{}\" fill-opacity=\"0.25\" stroke=\"{}\" stroke-width=\"{}\" d=\"{}\"/>\n",
                     k == 0 ? colours[0] : "none", colours[k % colours.size()], k == 0 ? 1 : 1.6,
                     material_path(wheels[k].numbers.grid, wheels[k].contours, scale, 2, 0.5 / scale));
+  for (std::size_t k = 0; k < wheels.size(); ++k)
+    for (const double layer : wheels[k].numbers.layers.radii)
+      svg += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-dasharray=\"5 3\" d=\"{}\"/>\n",
+                         colours[k % colours.size()], circle_path(layer * scale, 2));
   svg += "</g>\n";
   for (std::size_t k = 0; k < wheels.size(); ++k) {
     const double y = size + line_height * static_cast<double>(k);

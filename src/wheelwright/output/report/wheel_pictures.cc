@@ -32,7 +32,8 @@ DeformedPicture<dim> stress_picture(const PictureNames& names, const PositionFie
           .travel = fields.travel,
           .rim_force = dim == 2 ? scaled(names.width, fields.rim_force) : fields.rim_force,
           .contact = fields.contact,
-          .peak = fields.von_mises};
+          .peak = fields.von_mises,
+          .layers = fields.layers};
 }
 
 /// The same with the displacement towards the ground instead.
@@ -61,7 +62,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   write("stress.svg", stress);
   write("stress_contact.svg", contact);
   write("displacement.svg", with_displacement(stress));
-  write_atomically(folder / (names.prefix + "mesh.svg"), mesh_svg(shape, domain, names.title));
+  write_atomically(folder / (names.prefix + "mesh.svg"), mesh_svg(shape, domain, names.title, fields.layers));
 }
 
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,

@@ -100,6 +100,7 @@ RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim
       .most_stressed = static_cast<size_t>(worst),
       .peak_radius = peaks.von_mises_places[worst][0],
       .peak_azimuth = peaks.von_mises_places[worst][1],
+      .layers = layer_results(solver, state),
       .load = held == Held::load ? model.load : mean(state.positions(), forces),
       .travel = held == Held::travel ? *model.travel : mean(state.positions(), travels),
       .travel_at_load = travels,

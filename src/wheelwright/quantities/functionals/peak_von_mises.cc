@@ -27,12 +27,12 @@ void VonMisesPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<cons
 
 template <int dim>
 bool VonMisesPower<dim>::covers(const PolarGrid<dim>& grid, int row) const {
-  return row_is_inside(grid, row, from_tread_);
+  return row_is_inside(grid, row, from_tread_) && (!part_ || part_->has_row(grid, row));
 }
 
 template <int dim>
 std::string PeakVonMises<dim>::name() const {
-  return from_tread_ > 0 ? "peak_von_mises_inside" : "peak_von_mises";
+  return of_part(from_tread_ > 0 ? "peak_von_mises_inside" : "peak_von_mises", part_);
 }
 
 template <int dim>

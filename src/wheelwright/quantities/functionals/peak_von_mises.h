@@ -2,12 +2,13 @@
 
 #include "wheelwright/mechanics/state/functional_derivative.h"
 #include "wheelwright/quantities/functionals/functional.h"
+#include "wheelwright/quantities/functionals/part_of_ring.h"
 #include "wheelwright/quantities/functionals/peak_norm.h"
 
 namespace wheelwright {
 
 /// The p-th power of the von Mises stress in MPa, in the rows of cells that lie wholly farther from the tread
-/// than a given distance.
+/// than a given distance, and in a part of the ring if one is given.
 template <int dim>
 class VonMisesPower : public MaterialDensity<dim> {
  public:
@@ -15,7 +16,8 @@ class VonMisesPower : public MaterialDensity<dim> {
   static constexpr double unit = 1e6;
 
   /// `exponent`: p, even; `from_tread`: the distance [m], 0 for all rows.
-  VonMisesPower(int exponent, double from_tread) : exponent_(exponent), from_tread_(from_tread) {}
+  VonMisesPower(int exponent, double from_tread, std::optional<PartOfRing> part)
+      : exponent_(exponent), from_tread_(from_tread), part_(std::move(part)) {}
 
   void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
   void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
@@ -25,17 +27,19 @@ class VonMisesPower : public MaterialDensity<dim> {
  private:
   int exponent_;
   double from_tread_;
+  std::optional<PartOfRing> part_;
 };
 
 /// The largest von Mises stress at every load position [Pa]: a p-norm over the material of the whole ring.
 /// Near the tread the contact's own peak dominates, which the holes hardly change: rows of cells that reach
-/// closer to the tread than a given distance are excluded.
+/// closer to the tread than a given distance are excluded. Of a part of the ring, the norm is only over the
+/// part.
 template <int dim>
 class PeakVonMises : public Functional<dim> {
  public:
   /// `from_tread`: the distance [m]; 0 counts all material.
-  explicit PeakVonMises(double from_tread, PeakNorm norm = {})
-      : from_tread_(from_tread), norm_(norm), power_(norm.exponent, from_tread) {}
+  explicit PeakVonMises(double from_tread, PeakNorm norm = {}, const std::optional<PartOfRing>& part = {})
+      : from_tread_(from_tread), norm_(norm), part_(part), power_(norm.exponent, from_tread, part) {}
 
   std::string name() const override;
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
@@ -45,6 +49,7 @@ class PeakVonMises : public Functional<dim> {
  private:
   double from_tread_;
   PeakNorm norm_;
+  std::optional<PartOfRing> part_;
   VonMisesPower<dim> power_;
 };
 

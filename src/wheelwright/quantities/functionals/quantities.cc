@@ -37,6 +37,17 @@ FunctionalFactory of_length() {
   };
 }
 
+FunctionalFactory peak_von_mises(double from_tread) {
+  return [=]<int dim>(const QuantityContext<dim>& context) {
+    return std::make_shared<const PeakVonMises<dim>>(from_tread, PeakNorm(), context.part);
+  };
+}
+
+template <int dim>
+std::shared_ptr<const Functional<dim>> mass(const QuantityContext<dim>& context) {
+  return std::make_shared<const Mass<dim>>(context.solver.model().materials, context.part);
+}
+
 template <int dim>
 Expected<std::shared_ptr<const Functional<dim>>> uniformity_dual(const QuantityContext<dim>& context) {
   auto map = context.solver.neumann_to_dirichlet(context.dual_norm);
@@ -149,7 +160,7 @@ std::vector<QuantityRow> measure_rows() {
            .functional =
                []<int dim>(const QuantityContext<dim>& context) { return volume_fraction<dim>(context); },
            .is_amount_of_material = true,
-           .ranked_as = "mass"}};
+           .ranked_as = "volume"}};
 }
 
 std::vector<QuantityRow> material_rows() {
@@ -159,10 +170,11 @@ std::vector<QuantityRow> material_rows() {
            .meaning = "largest von Mises stress",
            .label = "peak von Mises stress",
            .usual = Over::maximum,
-           .functional = made<PeakVonMises>(everywhere),
+           .functional = peak_von_mises(everywhere),
            .integrates_stresses = true,
            .is_maximum = true,
-           .ranked_as = "peak_stress"},
+           .ranked_as = "peak_stress",
+           .has_parts = true},
           {.name = "largest_strain",
            .unit = UnitKind::ratio,
            .meaning = "largest principal strain",
@@ -170,24 +182,23 @@ std::vector<QuantityRow> material_rows() {
            .usual = Over::maximum,
            .instead = "use peak_von_mises",
            .is_maximum = true,
-           .ranked_as = "strain"},
+           .ranked_as = "strain",
+           .has_parts = true},
           {.name = "peak_von_mises_inside",
            .unit = UnitKind::stress,
            .meaning = "largest von Mises stress farther than 25 mm from the tread",
            .usual = Over::maximum,
-           .functional = made<PeakVonMises>(inside),
+           .functional = peak_von_mises(inside),
            .integrates_stresses = true,
            .is_maximum = true},
           {.name = "mass",
            .unit = UnitKind::mass,
            .meaning = "mass of the ring",
            .of = Positions::none,
-           .functional =
-               []<int dim>(const QuantityContext<dim>& context) {
-                 return std::make_shared<const Mass<dim>>(context.solver.model().materials);
-               },
+           .functional = []<int dim>(const QuantityContext<dim>& context) { return mass<dim>(context); },
            .needs = {Input::density},
-           .is_amount_of_material = true},
+           .is_amount_of_material = true,
+           .has_parts = true},
           {.name = "perimeter",
            .unit = UnitKind::length,
            .meaning = "length of the edges of the holes in one sector",
@@ -333,9 +344,15 @@ std::vector<std::string_view> Quantities::names() const {
 
 Quantity::Quantity() : Quantity(built_in("objective")) {}
 
+Quantity in_part(const Quantity& of_ring, PartOfRing part) {
+  QuantityRow row = *of_ring;
+  row.part = std::move(part);
+  return Quantity(std::move(row));
+}
+
 std::string number_key(const Quantity& quantity, int dimension) {
   const std::string_view unit = unit_in_key(kind(quantity), dimension);
-  return unit.empty() ? name(quantity) : fmt::format("{}_{}", name(quantity), unit);
+  return of_part(unit.empty() ? quantity->name : fmt::format("{}_{}", quantity->name, unit), quantity->part);
 }
 
 const Quantity& built_in(std::string_view name) {
@@ -365,11 +382,13 @@ Expected<WeightedFunctional<dim>> functional_of(const Quantity& quantity, Over o
   if (!maker)
     return Failure{FailureReason::unsupported_model,
                    fmt::format("{} is not computed in {}D", quantity->name, dim)};
-  auto term = maker->make(context);
+  QuantityContext<dim> of_its_part = context;
+  of_its_part.part = quantity->part;
+  auto term = maker->make(of_its_part);
   if (!term) return term.failure();
   if (term->quantity == Quantity()) term->quantity = quantity;
   if (is_each && !has_own_mean)
-    term->functional = aggregated<dim>(quantity->name, std::move(term->functional), over);
+    term->functional = aggregated<dim>(name(quantity), std::move(term->functional), over);
   return term;
 }
 

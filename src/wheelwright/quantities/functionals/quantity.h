@@ -8,6 +8,7 @@
 #include "wheelwright/base/expected.h"
 #include "wheelwright/base/units.h"
 #include "wheelwright/mechanics/elasticity/dual_norm.h"
+#include "wheelwright/quantities/functionals/part_of_ring.h"
 
 namespace wheelwright {
 
@@ -49,6 +50,7 @@ struct QuantityContext {
   const StateSolver<dim>& solver;
   double characteristic_length = 0;  ///< L of the uniformities [m]
   DualNorm dual_norm = DualNorm::elasticity;
+  std::optional<PartOfRing> part = {};  ///< of which the quantity is; nothing: of the whole ring
 };
 
 template <int dim>
@@ -150,10 +152,13 @@ struct QuantityRow {
   bool is_larger_better = false;  ///< where designs are ranked by it
   bool is_of_evenness = false;    ///< how evenly the wheel rolls
   std::string ranked_as = {};     ///< the word by which designs are ranked by it; empty: the name
+
+  bool has_parts = false;               ///< a part of the ring has a value of its own
+  std::optional<PartOfRing> part = {};  ///< of which it is; nothing: of the whole ring
 };
 
-/// One row of a table of quantities (quantities/functionals/quantities.h). Two of them are equal if they have
-/// the same name.
+/// One row of a table of quantities (quantities/functionals/quantities.h), or the same of a part of the ring.
+/// Two of them are equal if they have the same name.
 class Quantity {
  public:
   /// The objective as a weighted sum, an energy.
@@ -162,18 +167,23 @@ class Quantity {
 
   const QuantityRow* operator->() const { return row_.get(); }
   const QuantityRow& operator*() const { return *row_; }
-  friend bool operator==(const Quantity& a, const Quantity& b) { return a->name == b->name; }
+  friend bool operator==(const Quantity& a, const Quantity& b) {
+    return a->name == b->name && a->part == b->part;
+  }
 
  private:
   std::shared_ptr<const QuantityRow> row_;
 };
 
-inline const std::string& name(const Quantity& quantity) { return quantity->name; }
+/// E.g. "mass", or "mass of tyre".
+inline std::string name(const Quantity& quantity) { return of_part(quantity->name, quantity->part); }
 inline UnitKind kind(const Quantity& quantity) { return quantity->unit; }
-inline const std::string& label(const Quantity& quantity) {
-  return quantity->label.empty() ? quantity->name : quantity->label;
+inline std::string label(const Quantity& quantity) {
+  return of_part(quantity->label.empty() ? quantity->name : quantity->label, quantity->part);
 }
-/// Of its value on the whole width in JSON and tables for programs, e.g. "run_out_m".
+/// The same quantity of a part of the ring; it must have parts.
+Quantity in_part(const Quantity& of_ring, PartOfRing part);
+/// Of its value on the whole width in JSON and tables for programs, e.g. "run_out_m", "mass_kg of tyre".
 std::string number_key(const Quantity& quantity, int dimension);
 
 }  // namespace wheelwright

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheelwright/case/key_value.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/load_values.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
@@ -137,8 +138,9 @@ CommandResult NewBound::execute(RunControl& run) const {
   set("at least", at_least, bound.at_least);
   set("at most", at_most, bound.at_most);
   set("equal to", equals, bound.equals);
-  return changed(run, c,
-                 fmt::format("new bound: {} {}", wheelwright::name(bound.quantity), fmt::join(words, ", ")));
+  return changed(
+      run, c,
+      fmt::format("new bound: {} {}", wheelwright::name(quantity_of(c, bound)), fmt::join(words, ", ")));
 }
 
 CommandResult TakeShape::execute(RunControl& run) const {

@@ -20,7 +20,8 @@ class Pictures {
   void draw(const char* what, const SectorScalar& scalar) const {
     write_atomically(run_.folder / fmt::format("shapes/shape_{:04d}_{}.svg", state_.iteration, what),
                      sector_svg(state_.shape, scalar,
-                                fmt::format("{}, shape {}", run_title(run_.study.source), state_.iteration)));
+                                fmt::format("{}, shape {}", run_title(run_.study.source), state_.iteration),
+                                layer_circles(run_.study.model().materials)));
   }
 
   /// Draws nothing if the velocity could not be computed.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/unlimited.h"
 #include "wheelwright/run/checkpoints/provenance.h"
 #include "wheelwright/run/observers/run_warnings.h"
@@ -28,7 +29,7 @@ template <int dim>
 Json begin(const RunStarted& started, const RunView<dim>& run) {
   const Case& c = run.study.source;
   const int shapes = run.study.optimizer.iterations;
-  const Quantity& minimized = c.objective.minimize;
+  const Quantity minimized = minimized_quantity(c);
   return {{"event", "begin"},
           {"program", program_text()},
           {"folder", run.folder.string()},

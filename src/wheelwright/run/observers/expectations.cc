@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wheelwright/case/objective_weights.h"
+#include "wheelwright/mechanics/state/strain_peaks.h"
 #include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/run/study/bounded_functions.h"
 
@@ -44,6 +45,16 @@ KnownNumber computed(const Quantity& quantity, const StateSolver<dim>& solver, c
   return term->weight * value.over_positions.value_or(value.of_shape);
 }
 
+/// Peaks in the material that the quantity is about.
+template <int dim>
+StrainPeaks<dim> peaks_of(const Quantity& quantity, const StateSolver<dim>& solver,
+                          const State<dim>& solution) {
+  if (!quantity->part) return solution.strain_peaks();
+  const auto& layers = solver.model().materials.layers();
+  const auto layer = std::ranges::find(layers, quantity->part->name, &Materials<dim>::Layer::name);
+  return strain_peaks_by_layer(solver, solution)[layer - layers.begin()];
+}
+
 /// The index of the load case of that name; 0 if there is none.
 template <int dim>
 int place_of(const LoadCases<dim>& cases, const std::string& load_case) {
@@ -69,8 +80,10 @@ KnownNumber value_under(const std::string& in_history, const Quantity& quantity,
   if (const auto measure = named_value(evaluation.measures, in_history)) return *measure;
   if (const auto measured = on_outline(quantity, state.shape)) return *measured;
   if (!solution) return to_string(solution.failure());
-  if (quantity == built_in("peak_von_mises")) return std::ranges::max((*solution)->strain_peaks().von_mises);
-  if (quantity == built_in("largest_strain")) return std::ranges::max((*solution)->strain_peaks().principal);
+  if (quantity->name == "peak_von_mises")
+    return std::ranges::max(peaks_of(quantity, solver, **solution).von_mises);
+  if (quantity->name == "largest_strain")
+    return std::ranges::max(peaks_of(quantity, solver, **solution).principal);
   return computed(quantity, solver, state.shape, **solution);
 }
 
@@ -173,7 +186,7 @@ bool needs_a_solution(const Expectation& expectation) {
       });
   if (is_in_history && expectation.load_case.empty()) return false;
   if (quantity == built_in("volume_fraction") || quantity->compares_with_mean) return false;
-  return quantity->functional || quantity == built_in("largest_strain");
+  return quantity->functional || quantity->name == "largest_strain";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/files/atomic_file.h"
@@ -89,7 +90,7 @@ WheelState<2> wheel(const std::string& heading, const LevelSet<dim>& shape, doub
 
 template <int dim>
 std::string picture(const RunEnded<dim>& failure, const Case& c) {
-  const Quantity& minimized = c.objective.minimize;
+  const Quantity minimized = minimized_quantity(c);
   const ShownUnit shown = shown_unit(minimized, c.wheel);
   const Trial<dim>& trial = failure.failed_trials.back();
   const PolarGrid<2> grid = mid_plane_section(trial.shape).lattice.grid();
@@ -105,7 +106,7 @@ std::string picture(const RunEnded<dim>& failure, const Case& c) {
             last.evaluation.function("objective").value * shown.factor, last.measure);
   return comparison_svg(grid, {.title = "Where the run gave up",
                                .caption = trial.failure->detail,
-                               .objective_name = std::string(name(minimized)),
+                               .objective_name = name(minimized),
                                .objective_unit = shown.name,
                                .before = accepted,
                                .after = rejected});

@@ -1,5 +1,6 @@
 #include "wheelwright/run/observers/observers.h"
 
+#include "wheelwright/case/layers.h"
 #include "wheelwright/run/observers/checkpointer.h"
 #include "wheelwright/run/observers/descent_pictures.h"
 #include "wheelwright/run/observers/expectations.h"
@@ -21,7 +22,7 @@ Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints
   observers.push_back(std::make_unique<ShapeFiles<dim>>());
   observers.push_back(std::make_unique<ShapePictures<dim>>());
   if constexpr (dim == 2) observers.push_back(std::make_unique<DescentPictures>());
-  observers.push_back(std::make_unique<ExpectationWatch<dim>>(c.expectations, resumed));
+  observers.push_back(std::make_unique<ExpectationWatch<dim>>(placed_expectations(c), resumed));
   observers.push_back(std::make_unique<PressureFiles<dim>>());
   observers.push_back(std::make_unique<ResultFiles<dim>>());
   observers.push_back(std::make_unique<FailureReport<dim>>());

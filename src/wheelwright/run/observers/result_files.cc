@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/output/report/shape_boundary.h"
@@ -51,7 +52,7 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
   const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
                                  last.evaluation.function("objective").value, last.measure);
   write_for_workshop(run, after.boundary);
-  const Quantity& minimized = run.study.source.objective.minimize;
+  const Quantity minimized = minimized_quantity(run.study.source);
   const std::string load = load_text(run.study.model());
   write_atomically(
       run.folder / "comparison.svg",
@@ -61,11 +62,11 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                                     ? fmt::format("sum over {} load positions, {}",
                                                                   run.study.model().n_positions, load)
                                                     : load,
-                                     .objective_name = std::string(name(minimized)),
+                                     .objective_name = name(minimized),
                                      .objective_unit = shown_unit(minimized, run.study.source.wheel).name,
                                      .before = before,
                                      .after = after,
-                                     .interfaces = run.study.model().materials.interfaces()}));
+                                     .layers = layer_circles(run.study.model().materials)}));
 }
 
 /// The wheel under every load case except the first: its pictures, in the folder load_cases.

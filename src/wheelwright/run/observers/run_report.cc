@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/run/checkpoints/history.h"
@@ -247,6 +248,7 @@ ReportRun<dim> report_of_folder(const fs::path& folder, const Case& c) {
                      .load = load_text(rolling_model<dim>(c)),
                      .objective = shown_unit(c.objective.minimize, c.wheel),
                      .grid = polar_grid<dim>(c),
+                     .layers = layer_circles(materials<dim>(c)),
                      .outlines = read_outlines(folder)};
   read_history(folder / history_file, run);
   run.seconds = last_elapsed(run);

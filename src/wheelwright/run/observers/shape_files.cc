@@ -61,7 +61,7 @@ void ShapeFiles<dim>::write(const TrialDone<dim>& done, const RunView<dim>& run)
   const int iteration = done.state.iteration;
   make_subfolder(run.folder / "shapes");
   VtuMesh<dim>(done.state.shape, worst.lattice, vtu_cut_subdivisions<dim>, "m",
-               rows_of_odd_layers(solver.model()))
+               layers_of_rows(solver.model()))
       .write(run.folder / shape_file(iteration), fields);
   std::erase_if(shapes_, [&](const PvdEntry& entry) { return entry.time == iteration; });
   shapes_.push_back({static_cast<double>(iteration), shape_file(iteration)});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "wheelwright/case/layers.h"
 #include "wheelwright/quantities/functionals/quantity.h"
 
 namespace wheelwright {
@@ -22,7 +23,7 @@ bool is_on_a_peak(const Constraint& constraint) {
 std::string bounded_peaks(const Case& c) {
   std::vector<std::string> names;
   for (const Constraint& constraint : c.constraints)
-    if (const std::string& one = name(constraint.quantity);
+    if (const std::string one = name(quantity_of(c, constraint));
         is_on_a_peak(constraint) && std::ranges::find(names, one) == names.end())
       names.push_back(one);
   if (names.empty()) return "";

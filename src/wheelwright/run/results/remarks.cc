@@ -108,7 +108,8 @@ bool is_clearly_worse(const Measure& m, const JudgedWheel& before, const JudgedW
 /// Whether the case bounds one of the quantities on that side, under that load case.
 bool is_bounded(const Case& c, const Measure& m, const std::string& load_case) {
   return std::ranges::any_of(c.constraints, [&](const Constraint& bound) {
-    const bool is_this = std::ranges::find(m.bounded_as, bound.quantity) != m.bounded_as.end() &&
+    const bool is_this = bound.layer.empty() &&
+                         std::ranges::find(m.bounded_as, bound.quantity) != m.bounded_as.end() &&
                          (bound.load_case.empty() || bound.load_case == load_case);
     const bool is_stiffness = m.is_larger_better && bound.quantity == m.bounded_as.front();
     return is_this && (bound.equals || (is_stiffness ? bound.at_least : bound.at_most));

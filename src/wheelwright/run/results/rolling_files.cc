@@ -13,7 +13,7 @@ RollingFiles<dim>::RollingFiles(std::filesystem::path run, const LevelSet<dim>& 
                                 const StateSolver<dim>& solver, const State<dim>& solution)
     : run_(std::move(run)),
       mesh_(shape, displacement_lattice(solver.model()), vtu_cut_subdivisions<dim>, "m",
-            rows_of_odd_layers(solver.model())),
+            layers_of_rows(solver.model())),
       treads_(all_tread_contacts(solver, solution)) {
   make_subfolder(run_ / "rolling");
 }

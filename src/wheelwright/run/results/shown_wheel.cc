@@ -17,11 +17,12 @@ double page_bytes(const SurfaceMesh& surface, int positions) {
 }
 
 /// The finest surface that fits the page with this number of positions, with at least one cube per cell.
-SurfaceMesh page_surface(const SolvedShape<3>& solved, int positions) {
-  const int degree = solved.solver->model().degree;
-  SurfaceMesh surface = shape_boundary(*solved.shape, degree);
-  return page_bytes(surface, positions) > most_page_bytes ? material_surface(*solved.shape, 1, degree)
-                                                          : surface;
+LayeredSurface page_surface(const SolvedShape<3>& solved, int positions) {
+  const RollingModel<3>& model = solved.solver->model();
+  SurfaceMesh surface = shape_boundary(*solved.shape, model.degree);
+  if (page_bytes(surface, positions) > most_page_bytes)
+    surface = material_surface(*solved.shape, 1, model.degree);
+  return layered_surface(std::move(surface), model.grid, model.materials.interfaces());
 }
 
 FieldPoints<3> vertices(const SurfaceMesh& surface, const SolvedShape<3>& solved) {
@@ -40,7 +41,7 @@ std::string loaded_json(const SolvedShape<2>& solved, const PositionFields<2>& f
 }
 
 std::string loaded_json(const SolvedShape<3>& solved, const PositionFields<3>& fields) {
-  SurfaceMesh surface = page_surface(solved, 1);
+  LayeredSurface surface = page_surface(solved, 1);
   SurfacePosition position = on_points(fields, vertices(surface, solved));
   return loaded_wheel_json<3>({std::move(surface), {std::move(position)}});
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/results/bounded_peaks.h"
@@ -50,7 +51,7 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>&
           .before = {0, known(objective), std::move(before)},
           .after = {last.iteration, last.evaluation.function("objective").value, std::move(after)},
           .bounds = summarized_bounds(last, study.source.wheel),
-          .minimized = minimized_text(study.source.objective.minimize, study.source.wheel),
+          .minimized = minimized_text(minimized_quantity(study.source), study.source.wheel),
           .objective = shown_unit(study.source.objective.minimize, study.source.wheel),
           .remarks = std::move(worse),
           .bounded_peaks = bounded_peaks(study.source),

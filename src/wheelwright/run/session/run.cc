@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "wheelwright/case/layers.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/checkpoints/own_drawings.h"
 #include "wheelwright/run/checkpoints/provenance.h"
@@ -43,9 +44,10 @@ Expected<std::vector<Finding>> findings_at(const Case& c, const Checkpoint<dim>&
   const auto study = make_study<dim>(c);
   if (!study) return study.failure();
   SolvedStates<dim> states = Failure{FailureReason::interrupted, "no expectation needs a solution"};
-  if (need_a_solution(c.expectations))
+  const std::vector<Expectation> expectations = placed_expectations(c);
+  if (need_a_solution(expectations))
     states = study->solver->states(end.state.shape, study->solver->all_positions(), Interrupt());
-  return findings<dim>(c.expectations, end.found, *study->solver, study->load_cases, end.state, states);
+  return findings<dim>(expectations, end.found, *study->solver, study->load_cases, end.state, states);
 }
 
 template <int dim>

@@ -1,5 +1,7 @@
 #include "wheelwright/run/session/run_end.h"
 
+#include "wheelwright/case/layers.h"
+
 namespace wheelwright {
 namespace {
 
@@ -34,7 +36,7 @@ std::vector<Finding> findings_at_the_end(const Session<dim>& session, const Jour
                         .elapsed_seconds = 0,
                         .finished = {}};
   for (const auto& observer : journal.observers()) observer->add_to(noted);
-  return findings<dim>(study.source.expectations, noted.found, *study.solver, study.load_cases,
+  return findings<dim>(placed_expectations(study.source), noted.found, *study.solver, study.load_cases,
                        session.state(), solution);
 }
 

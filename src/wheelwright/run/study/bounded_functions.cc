@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/run/study/study.h"
 
@@ -50,16 +51,16 @@ void add_named(ShapeFunction<dim> function, std::vector<ShapeFunction<dim>>& fun
 
 /// Adds the functions of a constraint in one load case, named by `in_case`.
 template <int dim>
-void add_bounded(const Constraint& constraint, const WeightedFunctional<dim>& term,
+void add_bounded(const Constraint& constraint, const Quantity& bounded, const WeightedFunctional<dim>& term,
                  const std::string& in_case, const StateSolver<dim>& solver, bool are_images_alike,
                  std::vector<ShapeFunction<dim>>& functions) {
-  const std::string& quantity = name(constraint.quantity);
+  const std::string quantity = name(bounded);
   const Over over = positions_of(constraint);
   const bool is_worst = over == Over::maximum || over == Over::minimum;
   const ShapeFunction<dim> function{.name = (is_worst ? quantity + " worst" : quantity) + in_case,
                                     .terms = {term},
                                     .bounds = bounds(constraint),
-                                    .quantity = constraint.quantity,
+                                    .quantity = bounded,
                                     .over = over};
   if (over != Over::positions) {
     add_named(function, functions);
@@ -100,7 +101,7 @@ Over minimized_over(const Case& c) {
 
 template <int dim>
 Expected<WeightedSum<dim>> minimized_terms(const Case& c, const StateSolver<dim>& solver) {
-  auto only = functional_of(c.objective.minimize, minimized_over(c), quantity_context(c, solver));
+  auto only = functional_of(minimized_quantity(c), minimized_over(c), quantity_context(c, solver));
   if (!only) return only.failure();
   WeightedSum<dim> terms{*std::move(only)};
   return c.objective.minimize->of != Positions::none ? in_load_cases(c, std::move(terms)) : std::move(terms);
@@ -112,14 +113,15 @@ Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const
   const bool are_images_alike = distinct_positions(solver, load_cases<dim>(c), initial).stand_for_images();
   std::vector<ShapeFunction<dim>> functions;
   for (const Constraint& constraint : c.constraints) {
-    auto only = functional_of(constraint.quantity, positions_of(constraint), quantity_context(c, solver));
+    const Quantity bounded = quantity_of(c, constraint);
+    auto only = functional_of(bounded, positions_of(constraint), quantity_context(c, solver));
     if (!only) return only.failure();
     std::vector<int> cases{0};
-    if (constraint.quantity->of != Positions::none) cases = load_cases_of(c, constraint);
+    if (bounded->of != Positions::none) cases = load_cases_of(c, constraint);
     for (const int load_case : cases) {
       only->load_case = load_case;
       const std::string in_case = load_case > 0 ? " in " + c.load.cases[load_case].name : "";
-      add_bounded(constraint, *only, in_case, solver, are_images_alike, functions);
+      add_bounded(constraint, bounded, *only, in_case, solver, are_images_alike, functions);
     }
   }
   return functions;

@@ -55,7 +55,7 @@ std::string layers_report(const Case& c) {
   std::string report;
   for (const PlacedMaterial& placed : placed_materials(c)) {
     const auto& layer = placed.layer;
-    report += line(layer ? name_of_layer(c, *layer) : "material",
+    report += line(placed.name,
                    fmt::format("radius {:.6g} to {:.6g} mm, {}, {}{}", placed.inner_radius * 1e3,
                                placed.outer_radius * 1e3, constants_text(placed),
                                placed.density() ? fmt::format("{:.6g} kg/m^3", *placed.density())
@@ -171,14 +171,14 @@ std::vector<std::string> holes_in_solid_layers(const Case& c) {
   for (MaterialLayer& layer : open.layers) layer.holes = LayerHoles::allowed;
   const LevelSet<2> shape = initial_shape<2>(open);
   const PolarGrid<2>& grid = shape.lattice.grid();
-  for (const auto& [inner, outer, material, layer] : placed_materials(c)) {
+  for (const auto& [name, inner, outer, material, layer] : placed_materials(c)) {
     if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
     const auto part = in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line);
     if (material_measure(part) < (1 - 1e-3) * sector_measure<2>(part.lattice.grid()))
       result.push_back(
           fmt::format("holes reach into {}, which has holes = \"none\": there they stay material, and "
                       "become smaller, vanish or are divided",
-                      name_of_layer(c, *layer)));
+                      name));
   }
   return result;
 }
@@ -186,7 +186,7 @@ std::vector<std::string> holes_in_solid_layers(const Case& c) {
 std::string bounds_report(const Case& c) {
   std::string report;
   for (const Constraint& bound : c.constraints) {
-    std::string text(name(bound.quantity));
+    std::string text = name(quantity_of(c, bound));
     const char* separator = " ";
     for (const auto& [words, value] :
          {std::pair{"at least", bound.at_least}, {"at most", bound.at_most}, {"equal to", bound.equals}})

@@ -132,11 +132,12 @@ Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>
     terms.push_back(*std::move(term));
   }
   WeightedSum<dim> of_shape;  // the same under every load
-  for (const auto& [quantity, weight] : c.objective.terms) {
-    if (!(weight > 0)) continue;
+  for (const ObjectiveTerm& further : c.objective.terms) {
+    if (!(further.weight > 0)) continue;
+    const Quantity quantity = quantity_of(c, further);
     auto term = functional_of(quantity, quantity->usual, quantity_context(c, solver));
     if (!term) return term.failure();
-    term->weight *= weight;
+    term->weight *= further.weight;
     (quantity->of == Positions::none ? of_shape : terms).push_back(*std::move(term));
   }
   terms = in_load_cases(c, std::move(terms));
@@ -170,7 +171,7 @@ Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case& c, const S
     if (!terms) return terms.failure();
   }
   functions.push_back(objective(*std::move(terms)));
-  functions.back().quantity = c.objective.minimize;
+  functions.back().quantity = minimized_quantity(c);
   functions.back().over = minimized_over(c);
   auto volume = functional_of(material_volume(), Over::mean, quantity_context(c, solver));
   if (!volume) return volume.failure();
@@ -259,8 +260,8 @@ std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   const SavedLevelSet* saved = saved_shape(c);
   auto given = saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c);
   // What layers without holes take of them is not lost on the grid.
-  if (const auto between = bands(c).between; !between.empty())
-    given = ProtectedBands<dim>(samples, {.rim = {}, .tread = {}, .between = between}).keep(std::move(given));
+  if (const auto solid = solid_layers(c); !solid.empty())
+    given = ProtectedBands<dim>(samples, {.rim = {}, .tread = {}, .between = solid}).keep(std::move(given));
   return topology_changes(components(given, 1), components(initial_shape<dim>(c)));
 }
 

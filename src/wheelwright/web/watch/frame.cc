@@ -8,6 +8,7 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/load_values.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
@@ -72,7 +73,7 @@ Json weights_json(const Objective& objective) {
 Json bounds_json(const Case& c) {
   Json bounds = Json::array();
   for (const Constraint& bound : c.constraints) {
-    Json json{{"quantity", name(bound.quantity)}, {"shown", shown_json(kind(bound.quantity), c)}};
+    Json json{{"quantity", name(quantity_of(c, bound))}, {"shown", shown_json(kind(bound.quantity), c)}};
     if (bound.at_least) json["at_least"] = *bound.at_least;
     if (bound.at_most) json["at_most"] = *bound.at_most;
     if (bound.equals) json["equals"] = *bound.equals;
@@ -100,16 +101,19 @@ template <int dim>
 Json wheel_json(const WatchedShape<dim>& shape) {
   const PolarGrid<dim>& grid = shape.psi.lattice.grid();
   const HoleRange room = free_region(*shape.source);
-  return {{"dimension", dim},
-          {"inner_radius_m", grid.inner_radius},
-          {"outer_radius_m", grid.outer_radius},
-          {"width_m", grid.width},
-          {"sectors", grid.n_sectors},
-          {"hole_inner_radius_m", room.inner},
-          {"hole_outer_radius_m", room.outer},
-          {"cell_m", grid.resolution()},
-          {"stands_on_ground",
-           shape.source->contact.with == Counterpart::ground && shape.source->load.ground == "flat"}};
+  Json json{{"dimension", dim},
+            {"inner_radius_m", grid.inner_radius},
+            {"outer_radius_m", grid.outer_radius},
+            {"width_m", grid.width},
+            {"sectors", grid.n_sectors},
+            {"hole_inner_radius_m", room.inner},
+            {"hole_outer_radius_m", room.outer},
+            {"cell_m", grid.resolution()},
+            {"stands_on_ground",
+             shape.source->contact.with == Counterpart::ground && shape.source->load.ground == "flat"}};
+  if (const LayerCircles layers = layer_circles(materials<dim>(*shape.source)); !layers.empty())
+    json["layers"] = {{"radii_m", layers.radii}, {"names", layers.names}};
+  return json;
 }
 
 template <int dim>

@@ -19,7 +19,8 @@ function thumbnail(parent, design) {
   const picture = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   picture.setAttribute("class", "thumbnail");
   picture.setAttribute("viewBox", "-50 -50 100 100");
-  element(picture, "path", { d: design.outline });
+  element(picture, "path", { class: "wheel", d: design.outline });
+  if (design.layers) element(picture, "path", { class: "layers", d: design.layers });
   parent.appendChild(picture);
 }
 
@@ -28,6 +29,7 @@ function card(parent, design, x, y) {
   const group = element(parent, "g", { class: "card", transform: `translate(${left} ${top})`, "pointer-events": "none" });
   element(group, "rect", { width: 150, height: 146, rx: 8 });
   if (design.outline) element(group, "path", { class: "wheel", d: design.outline, transform: "translate(75 58)" });
+  if (design.layers) element(group, "path", { class: "layers", d: design.layers, transform: "translate(75 58)" });
   element(group, "text", { x: 75, y: 134, "text-anchor": "middle", textLength: design.text.length > 20 ? 140 : undefined,
                            lengthAdjust: "spacingAndGlyphs" }, design.text);
 }

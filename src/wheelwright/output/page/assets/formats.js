@@ -59,9 +59,12 @@ const formats = (() => {
     return shares.map((t) => digits(t ** power * end) + (t === 1 ? `${beyond} ${unit}` : ""));
   }
 
+  // What the lines in a picture are; "" for a wheel of one material, which has no layers.
+  const layersText = (layers) => layers ? ` Lines lie between layers, from the rim: ${layers.names.join(", ")}.` : "";
+
   const sentence = (text) => text[0].toUpperCase() + text.slice(1);
   const words = (identifier) => identifier.replaceAll("_", " ");
 
   return { degree, shown, withError, short, change, briefChange, within, minutes, roundMagnification, steadyMagnification,
-    scaleLabels, sentence, words };
+    scaleLabels, layersText, sentence, words };
 })();

@@ -11,6 +11,12 @@ const frameChanges = (() => {
     minimum_wall_m: "thinnest wall", minimum_gap_m: "narrowest gap" };
   const ids = { volume_fraction: "volume", mean_travel_m: "travel", run_out_m: "run-out", peak_pressure_Pa: "pressure" };
 
+  // The label of a number by its key, also of one of a layer, as "mass_kg of tyre"; undefined if the page does not show it.
+  function labelOf(key) {
+    const [of, layer] = key.split(/ of (.*)/);
+    return layer && labels[of] ? `${labels[of]} of ${layer}` : labels[key];
+  }
+
   // The numbers of an estimate of errors under a load case, by name: values by their keys, `errors` and `missing_errors`.
   const estimateUnder = (estimate, name) => ({ ...estimate, ...estimate?.load_cases?.[name] });
 
@@ -27,8 +33,8 @@ const frameChanges = (() => {
     const now = { ...numbers.now, ...estimated, volume_fraction: frame.numbers.volume_fraction,
       ...(frame.load_case === loadCase ? frame.contact_numbers : {}) };
     return numbers.rows
-      .filter(({ key }) => key in labels && (numbers.now[key] !== undefined || numbers.before[key] !== undefined))
-      .map(({ key, unit, factor }) => ({ id: ids[key] ?? key, name: labels[key], unit,
+      .filter(({ key }) => labelOf(key) && (numbers.now[key] !== undefined || numbers.before[key] !== undefined))
+      .map(({ key, unit, factor }) => ({ id: ids[key] ?? key.replaceAll(" ", "_"), name: labelOf(key), unit,
         before: numbers.before[key] * factor, now: now[key] * factor, error: (errors[key] ?? NaN) * factor,
         isLate: numbers.shape_version !== frame.shape_version && now[key] === numbers.now[key]
           && !(key in estimated) && key !== "volume_fraction" }));
@@ -44,8 +50,8 @@ const frameChanges = (() => {
   function errorRows(estimate, name) {
     const { rows = [], errors = {}, missing_errors: missing = {}, ...values } = estimateUnder(estimate, name);
     const objective = [["objective_J_per_m", "J/m"], ["objective_J", "J"]].map(([key, unit]) => ({ key, unit, factor: 1 }));
-    return [...objective, ...rows].filter(({ key }) => key in labels && (errors[key] !== undefined || missing[key] !== undefined))
-      .map(({ key, unit, factor }) => ({ name: labels[key], unit, text: missing[key] === undefined
+    return [...objective, ...rows].filter(({ key }) => labelOf(key) && (errors[key] !== undefined || missing[key] !== undefined))
+      .map(({ key, unit, factor }) => ({ name: labelOf(key), unit, text: missing[key] === undefined
         ? withError(values[key] * factor, errors[key] * factor)
         : `${shown(values[key] * factor)}; ${missing[key]}` }));
   }

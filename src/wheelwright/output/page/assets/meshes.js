@@ -87,6 +87,16 @@ const meshes = (() => {
     return new Float32Array(edges);
   }
 
+  // The edges between layers of materials in all sectors, as consecutive pairs of vertices of the whole wheel.
+  function layerEdges({ fields, sectors }) {
+    if (!fields.layer_edges) return new Uint32Array(0);
+    const edges = new Uint32Array(bytes(fields.layer_edges).buffer);
+    const n = bytes(fields.points).length / (fields.is_surface ? 12 : 8), all = new Uint32Array(edges.length * sectors);
+    for (let s = 0; s < sectors; ++s)
+      for (let k = 0; k < edges.length; ++k) all[s * edges.length + k] = (edges[k] + s * n) % (n * sectors);
+    return all;
+  }
+
   // What the colours can represent: a fraction in [0, 1] at a vertex, and the value at the end of the scale.
   function colourings({ full_stress_Pa, full_displacement_m }, positions) {
     const size = ({ displacement }, v) => Math.hypot(...displacement.map((d) => d[v])) / 32767;
@@ -103,5 +113,5 @@ const meshes = (() => {
     };
   }
 
-  return { bytes, wheelMesh, wheelSurface, surfacePositions, holeEdges, colourings };
+  return { bytes, wheelMesh, wheelSurface, surfacePositions, holeEdges, layerEdges, colourings };
 })();

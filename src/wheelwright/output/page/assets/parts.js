@@ -2,7 +2,7 @@
 // Elements, painters and charts shared by the pages of runs.
 const parts = (() => {
   const { curveColours } = colours;
-  const { wheelMesh, wheelSurface, surfacePositions, holeEdges, colourings } = meshes;
+  const { wheelMesh, wheelSurface, surfacePositions, holeEdges, layerEdges, colourings } = meshes;
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // --- Elements ---------------------------------------------------------------------------------------
@@ -118,6 +118,31 @@ const parts = (() => {
     return Object.assign(paint, { take });
   }
 
+  // Strokes a path between layers, visible on light and dark colours.
+  function strokeLayers(context, path, width) {
+    for (const [ink, share] of [["#ffffffb0", 2.4], ["#24292f", 1]]) {
+      context.strokeStyle = ink;
+      context.lineWidth = share * width;
+      context.stroke(path);
+    }
+  }
+
+  // Draws the lines between layers over the whole wheel in a square canvas: a function of the position and the magnification.
+  function layerPainter(canvas, run) {
+    const edges = layerEdges(run);
+    if (edges.length === 0) return () => {};
+    const { places, positions } = wheelMesh(run), full = run.fields.full_displacement_m / 32767;
+    return (index, magnified) => {
+      const { azimuth, x, y } = positions[index], size = canvas.width, scale = 0.45 * size / run.outer_radius_m;
+      const path = new Path2D(), turn = -Math.PI / 2 - azimuth, c = Math.cos(turn), d = Math.sin(turn);
+      edges.forEach((v, k) => {
+        const u = places[2 * v] + magnified * full * x[v], w = places[2 * v + 1] + magnified * full * y[v];
+        path[k % 2 ? "lineTo" : "moveTo"](size / 2 + scale * (c * u - d * w), size / 2 - scale * (d * u + c * w));
+      });
+      strokeLayers(canvas.getContext("2d"), path, size / 700);
+    };
+  }
+
   // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
 
   // Draws the lit wheel on the ground: a function of the position, the magnification and the colouring. The wheel turns
@@ -133,7 +158,8 @@ const parts = (() => {
     const wheel = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshPhongMaterial(
       { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222,
         polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 }));
-    let surface = null, full = 0, places = null, shades = null;
+    let surface = null, full = 0, places = null, shades = null, edges = null;
+    const between = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0xb8bec6 }));
     const kinds = {};
     // Replaces the shape by another one of the same wheel, or its load positions; visible when painted.
     let taken = {};
@@ -151,6 +177,10 @@ const parts = (() => {
       wheel.geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
       wheel.geometry.setAttribute("color", new THREE.BufferAttribute(shades, 3));
       wheel.geometry.setIndex(new THREE.BufferAttribute(surface.corners, 1));
+      edges = layerEdges({ ...run, fields });
+      between.geometry.dispose();
+      between.geometry = new THREE.BufferGeometry();
+      between.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * edges.length), 3));
     };
     take(run.fields);
     const ground = new THREE.Mesh(new THREE.PlaneBufferGeometry(2.2 * radius, run.width_m + 0.5 * radius),
@@ -160,7 +190,7 @@ const parts = (() => {
     const before = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
     before.visible = false;
     const turned = new THREE.Group(), scene = new THREE.Scene();
-    turned.add(wheel, ground, before);
+    turned.add(wheel, ground, before, between);
     scene.add(turned, new THREE.HemisphereLight(0xffffff, 0xc8c8d0, 0.75));
     const key = new THREE.DirectionalLight(0xffffff, 0.55);
     key.position.set(-0.5, 0.8, 1);
@@ -184,13 +214,19 @@ const parts = (() => {
     const paint = (index, magnified, kind, brightened = 1) => {
       const position = surface.positions[index], { share } = kinds[kind], factor = magnified * full;
       const [dx, dy, dz] = position.displacement;
+      const place = (target, k, v) => {
+        target[3 * k] = surface.places[3 * v] + factor * dx[v];
+        target[3 * k + 1] = surface.places[3 * v + 1] + factor * dy[v];
+        target[3 * k + 2] = surface.places[3 * v + 2] + factor * dz[v];
+      };
+      const lines = between.geometry.getAttribute("position");
+      edges.forEach((v, k) => place(lines.array, k, v));
+      lines.needsUpdate = true;
       surface.sources.forEach((v, k) => {
-        places[3 * k] = surface.places[3 * v] + factor * dx[v];
-        places[3 * k + 1] = surface.places[3 * v + 1] + factor * dy[v];
-        places[3 * k + 2] = surface.places[3 * v + 2] + factor * dz[v];
+        place(places, k, v);
         colours.write(shades, 3 * k, Math.min(1, brightened * share(position, v)), 255);
       });
-      wheel.rotation.z = before.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
+      wheel.rotation.z = before.rotation.z = between.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
       for (const name of ["position", "color"]) wheel.geometry.getAttribute(name).needsUpdate = true;
       wheel.geometry.computeVertexNormals();
       draw();
@@ -301,8 +337,9 @@ const parts = (() => {
     return all;
   }
 
-  // The material between rim, tread and edges; the axle is the origin of the context.
-  function paintWheel(context, edges, inner, outer) {
+  // The material between rim, tread and edges, with circles between layers of these radii; the axle is the origin of the
+  // context.
+  function paintWheel(context, edges, inner, outer, layers = []) {
     const wheel = new Path2D(edges);
     for (const r of [outer, inner]) {
       wheel.moveTo(r, 0);
@@ -310,6 +347,17 @@ const parts = (() => {
     }
     context.fillStyle = colour("--material");
     context.fill(wheel, "evenodd");
+    if (layers.length) {
+      const circles = new Path2D();
+      for (const r of layers) {
+        circles.moveTo(r, 0);
+        circles.arc(0, 0, r, 0, 2 * Math.PI);
+      }
+      context.save();
+      context.clip(wheel, "evenodd");
+      strokeLayers(context, circles, context.lineWidth);
+      context.restore();
+    }
     context.strokeStyle = colour("--ink");
     context.stroke(wheel);
   }
@@ -364,5 +412,5 @@ const parts = (() => {
     return { figure, start, update, recolour };
   }
 
-  return { colour, element, wheelPainter, surfacePainter, drawGround, wheelPath, paintWheel, chart };
+  return { colour, element, wheelPainter, layerPainter, strokeLayers, surfacePainter, drawGround, wheelPath, paintWheel, chart };
 })();

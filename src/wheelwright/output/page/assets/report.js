@@ -2,8 +2,8 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const page = document.getElementById("page");
-  const { colour, element, wheelPainter, surfacePainter, drawGround, chart, wheelPath, paintWheel } = parts;
-  const { degree, shown, minutes } = formats, { curveColours, gradient } = colours;
+  const { colour, element, wheelPainter, layerPainter, surfacePainter, drawGround, chart, wheelPath, paintWheel } = parts;
+  const { degree, shown, minutes, layersText } = formats, { curveColours, gradient } = colours;
 
   // Missing values are null in the data and NaN in sums, and are shown as a dash.
   for (const { summary } of data.runs) for (const numbers of summary ? [summary.before, summary.after] : [])
@@ -94,7 +94,7 @@
     const rollable = n > 1 ? [button, element("label", {}, "load position", slider)] : [];
     const figure = element("figure", {}, frame, element("div", { class: "scale", style: `background:${gradient}` }), labels,
       scaleName, element("div", { class: "controls" }, ...rollable, choice, ...(is_surface ? [kind] : [])), caption);
-    let paint = null, timer = null;
+    let paint = null, paintLayers = null, timer = null;
     const scale = (colouring) => {
       labels.replaceChildren(...formats.scaleLabels([0, 0.25, 0.5, 0.75, 1], colouring).map((text) => element("span", {}, text)));
       scaleName.textContent = colouring.name;
@@ -104,10 +104,13 @@
       if (paint) paint(i, magnified, kind.value);
       scale({ ...(paint?.kinds?.[kind.value] ?? { name: "von Mises stress, on a scale of square roots",
         end: run.fields.full_stress_Pa * 1e-6, unit: "MPa", power: 2 }), ...(kind.value === "stress" ? { peak } : {}) });
-      if (!is_surface) drawGround(ground, run);
+      if (!is_surface) {
+        drawGround(ground, run);
+        if (paint) paintLayers(i, magnified);
+      }
       const azimuth = run.fields.positions[i].azimuth_rad, numbers = reportTexts.positionNumbers(numbersOfPositions, azimuth);
       caption.textContent = `${loadCase ? `Load case ${loadCase}. ` : ""}Ground at azimuth ${shown(azimuth * degree)}\u00b0${numbers}. ` +
-        `Displacements are drawn ${magnified === 1 ? "at true scale" : `${magnified} times as large`}.${is_surface ? " Drag the wheel to turn it." : ""}`;
+        `Displacements are drawn ${magnified === 1 ? "at true scale" : `${magnified} times as large`}.${is_surface ? " Drag the wheel to turn it." : ""}${layersText(run.layers)}`;
     };
     const roll = (on) => {
       clearInterval(timer);
@@ -118,7 +121,11 @@
     button.addEventListener("click", () => roll(timer === null));
     slider.addEventListener("input", () => { roll(false); draw(); });
     for (const control of [choice, kind]) control.addEventListener("change", draw);
-    const start = () => { paint = (is_surface ? surfacePainter : wheelPainter)(picture, run); draw(); };
+    const start = () => {
+      paint = (is_surface ? surfacePainter : wheelPainter)(picture, run);
+      if (!is_surface) paintLayers = layerPainter(ground, run);
+      draw();
+    };
     // In print, an overlay hides a canvas even where it is transparent, so one canvas shows both.
     const print = () => {
       const copy = element("canvas", { class: "print-copy", "aria-hidden": "true", style: "position:absolute;inset:0" });
@@ -147,14 +154,15 @@
       const i = Number(slider.value);
       const outer = run.outline_units * unit, inner = outer * run.inner_radius_m / run.outer_radius_m;
       const edges = (outline) => wheelPath(outline.contours.map((contour) => contour.flat()), 1, unit);
-      paintWheel(context, edges(run.outlines[i]), inner, outer);
+      const layers = (run.layers?.radii_m ?? []).map((radius) => outer * radius / run.outer_radius_m);
+      paintWheel(context, edges(run.outlines[i]), inner, outer, layers);
       context.setLineDash([6, 4]);
       context.strokeStyle = colour("--bad");
       context.stroke(edges({ contours: run.given_contours ?? run.outlines[0].contours }));
       context.setLineDash([]);
       const value = run.outlines[i].objective * run.objective.factor;
       caption.textContent = `Shape ${run.outlines[i].shape} of ${run.outlines[last].shape}: objective [${run.objective.unit}] ${shown(value)}; ` +
-        "dashed: the edges of the initial holes.";
+        `dashed: the edges of the initial holes.${layersText(run.layers)}`;
     };
     slider.addEventListener("input", draw);
     const figure = element("figure", {}, element("div", { class: "picture" }, canvas),

@@ -99,7 +99,11 @@ const reportTexts = (() => {
   function answers(run) {
     const list = [], answer = (...one) => list.push(one);
     const { before, after } = run.summary;
-    const place = after.peak_von_mises_place;
+    const peak = (of) => {
+      const place = after[`peak_von_mises_place${of}`];
+      return `${shown(after[`peak_von_mises_Pa${of}`] * 1e-6)} MPa at radius ${shown(place.radius_m * 1e3)} mm, azimuth ` +
+        `${shown(place.azimuth_rad * degree)}\u00b0`;
+    };
     const volume = Math.PI * (run.outer_radius_m ** 2 - run.inner_radius_m ** 2) * run.width_m * after.volume_fraction;
     answer("stiffness", "How stiff?", `${shown(after.stiffness_N_per_m * 1e-3)} N/mm`);
     answer("evenness", "How even does it roll?", `run-out ${shown(after.run_out_m * 1e3)} mm, force varies by ` +
@@ -111,8 +115,9 @@ const reportTexts = (() => {
     if (Number.isFinite(after.roughness_turns))
       answer("edges", "Can its edges be cut?", `${run.has_rough_edges ? "No" : "Yes"}: internal corners of radius ` +
         `${shown(after.internal_corner_radius_m * 1e3)} mm; ${shown(after.roughness_turns)} turns of an edge below a cell`);
-    answer("stress", "What peak stress, and where?", `${shown(after.peak_von_mises_Pa * 1e-6)} MPa at radius ` +
-      `${shown(place.radius_m * 1e3)} mm, azimuth ${shown(place.azimuth_rad * degree)}\u00b0`);
+    const layers = (run.layers?.names ?? []).filter((layer) => after[`peak_von_mises_place of ${layer}`]);
+    answer("stress", "What peak stress, and where?",
+      [peak(""), ...layers.map((layer) => `${layer}: ${peak(` of ${layer}`)}`)].join("; "));
     answer("pressure", "What pressure on the ground?", `${shown(after.peak_pressure_Pa * 1e-6)} MPa`);
     answer("travel", "How far does it sink?", `${shown(after.mean_travel_m * 1e3)} mm`);
     answer("load", "For which load?", `${shown(after.load_N)} N`);

@@ -2,7 +2,7 @@
 // The wheel on its ground: the loaded wheel at one load position, coloured by stress, overlaid by the edges of the
 // newest shape, which may be newer than the colours. Coordinates and frames are those of planeView.
 const stage = (() => {
-  const { colour, wheelPainter } = parts, { steadyMagnification } = formats, { bytes } = meshes;
+  const { colour, strokeLayers, wheelPainter } = parts, { steadyMagnification } = formats, { bytes, layerEdges } = meshes;
   const { turned, copiesOf, pointsOf, nearestInWheel, smoothShares, circlePoints } = planeView;
 
   function make(overlay, picture, wheel) {
@@ -20,7 +20,8 @@ const stage = (() => {
       if (isMesh) {
         const places = new Float32Array(bytes(fields.points).buffer);
         mesh = { vertices: places.length / 2, nearest: nearestInWheel(places, sectors), sharesAt: smoothShares(places, sectors),
-          circles: [inner, outer].map((radius) => circlePoints(places, radius)) };
+          circles: [inner, outer].map((radius) => circlePoints(places, radius)), places,
+          layerEdges: layerEdges({ fields, sectors }) };
       }
       const [position] = fields.positions;
       field = { x: new Int16Array(bytes(position.x).buffer), y: new Int16Array(bytes(position.y).buffer),
@@ -127,6 +128,16 @@ const stage = (() => {
       return path;
     }
 
+    // The lines between layers of the coloured shape.
+    function layersPath() {
+      const path = new Path2D(), n = mesh.vertices, factor = isLoaded ? magnified * field.full : 0;
+      mesh.layerEdges.forEach((v, k) => {
+        const [x, y] = turned([mesh.places[2 * (v % n)], mesh.places[2 * (v % n) + 1]], 2 * Math.PI * Math.floor(v / n) / sectors);
+        path[k % 2 ? "lineTo" : "moveTo"](...pixelOf([x + factor * field.x[v], y + factor * field.y[v]]));
+      });
+      return path;
+    }
+
     function resize() {
       const ratio = Math.min(2, devicePixelRatio || 1), width = Math.round(overlay.clientWidth * ratio),
             height = Math.round(overlay.clientHeight * ratio);
@@ -187,6 +198,7 @@ const stage = (() => {
         context.fillStyle = colour("--material");
         context.fill(outlinePath(coloured), "evenodd");
       }
+      if (mesh?.layerEdges.length) strokeLayers(context, layersPath(), 0.8 * ratio);
       context.fillStyle = colour("--paper");
       context.fill(edges, "evenodd");
       context.strokeStyle = colour("--ink");

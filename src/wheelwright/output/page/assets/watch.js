@@ -1,6 +1,6 @@
 "use strict";
 (() => {
-  const { colour, element, chart } = parts, { shown, short, withError, briefChange, words } = formats;
+  const { colour, element, chart } = parts, { shown, short, withError, briefChange, layersText, words } = formats;
   const { isOf, caseName, numberRows, objectiveError, errorRows, errorsText, boundRow, clauses, newest, comparable, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
   const at = (id) => document.getElementById(id);
 
@@ -137,7 +137,8 @@
     at("scale-labels").replaceChildren(...formats.scaleLabels([0, 0.25, 1], { end: brightest() * 1e-6, unit: "MPa" })
       .map((text) => element("span", {}, text)));
     const magnified = isSolid() ? solid?.magnified : scene.magnified;
-    at("loaded-text").textContent = `von Mises stress${magnified ? `; displacements \u00d7 ${magnified}` : "; not deformed"}`;
+    at("loaded-text").textContent = `von Mises stress${magnified ? `; displacements \u00d7 ${magnified}` : "; not deformed"}.` +
+      layersText(frame.wheel.layers);
   }
   document.querySelector(".legend .scale").style.background = colours.gradient;
 
