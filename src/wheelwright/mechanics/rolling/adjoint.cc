@@ -1,9 +1,11 @@
 #include "wheelwright/mechanics/rolling/adjoint.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "wheelwright/base/periodic.h"
 #include "wheelwright/mechanics/contact/contact_adjoint.h"
+#include "wheelwright/mechanics/rolling/energy_weights.h"
 #include "wheelwright/mechanics/rolling/material_loads.h"
 
 namespace wheelwright {
@@ -39,16 +41,13 @@ std::vector<Matrix> unstacked(Matrix all, int n) {
   return parts;
 }
 
-bool all_equal(const std::vector<double>& x) {
-  return std::all_of(x.begin(), x.end(), [&](double y) { return y == x.front(); });
-}
-
-/// A factor per position as one per load case.
+/// The functions' shares of the strain energies.
 template <int dim>
-std::vector<double> by_load_case(const RollingSolution<dim>& s, const std::vector<double>& factors) {
-  std::vector<double> result;
-  for (const double factor : factors) result.insert(result.end(), s.ring.n_sectors(), factor);
-  return result;
+std::vector<EnergyWeights<dim>> energy_weights(const RollingSolution<dim>& s,
+                                               std::span<const FunctionalDerivative<dim>> functions) {
+  std::vector<EnergyWeights<dim>> weights;
+  for (const auto& function : functions) weights.emplace_back(s, function);
+  return weights;
 }
 
 /// The sums over the load cases along the displacement's modes: W^T M x, with one row of x per load case.
@@ -62,8 +61,8 @@ template <int dim>
 class Loads {
  public:
   Loads(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
-        std::span<const FunctionalDerivative<dim>> functions)
-      : functions_(functions), s_(s) {
+        std::span<const FunctionalDerivative<dim>> functions, std::span<const EnergyWeights<dim>> energies)
+      : functions_(functions), energies_(energies), s_(s) {
     const int n_functions = static_cast<int>(functions.size()), per_function = s.observations.columns();
     tread.on_observations = Matrix(s.observations.rows(), n_functions * per_function);
     boundary = Matrix(s.ring.n_boundary(), n_functions * n_cases());
@@ -83,11 +82,11 @@ class Loads {
   std::vector<Matrix> core() && {
     std::vector<Matrix> loads;
     for (size_t f = 0; f < functions_.size(); ++f) {
-      if (functions_[f].energy.empty())
+      if (energies_[f].empty())
         loads.emplace_back(ghost_.rows(), ghost_.columns());
       else
-        loads.push_back(energy_weighted(s_, functions_[f].energy,
-                                        f + 1 == functions_.size() ? std::move(ghost_) : Matrix(ghost_)));
+        loads.push_back(
+            energies_[f].of_modes(f + 1 == functions_.size() ? std::move(ghost_) : Matrix(ghost_)));
       if (materials_[f]) loads.back() = sum(std::move(loads.back()), on_modes(s_, *materials_[f]));
     }
     return loads;
@@ -98,16 +97,14 @@ class Loads {
   /// and Nitsche's symmetric term.
   void add_on_observations(const RollingProblem<dim>& problem, int f) {
     materials_.emplace_back();
-    const int per_function = s_.observations.columns(), n_columns = per_function / s_.positions.size();
-    const auto& energy = functions_[f].energy;
+    const int per_function = s_.observations.columns();
     const Matrix& loads = functions_[f].tread_loads;
     if (loads.columns() > 0) put_columns(loads, f * per_function, tread.on_observations);
-    if (energy.empty()) return;
-    const Matrix nitsche = problem.nitsche_loads(s_.observations);
-    for (int j = 0; j < per_function; ++j) {
-      double* to = tread.on_observations.column(f * per_function + j);
-      for (int i = 0; i < nitsche.rows(); ++i) to[i] += energy[j / n_columns] * nitsche(i, j);
-    }
+    if (energies_[f].empty()) return;
+    std::vector<int> all(per_function);
+    std::iota(all.begin(), all.end(), 0);
+    energies_[f].add_observations(1, problem.nitsche_loads(s_.observations), all, f * per_function,
+                                  tread.on_observations);
   }
 
   void add_material(const RollingProblem<dim>& problem, int f) {
@@ -128,13 +125,12 @@ class Loads {
   /// The ghost penalty's share of dJ_e/dv: its modes are the same for all functions.
   void add_ghost() {
     ghost_ = s_.ghost_loads;
-    if (std::all_of(functions_.begin(), functions_.end(), [](const auto& f) { return f.energy.empty(); }))
-      return;
+    if (std::ranges::all_of(energies_, [](const auto& energy) { return energy.empty(); })) return;
     s_.ring.sector_factor().eliminate(s_.sweep, ghost_);
     const Matrix on_boundary = trailing(ghost_);
     for (size_t f = 0; f < functions_.size(); ++f) {
-      if (functions_[f].energy.empty()) continue;
-      const Matrix weights = scaled_rows(by_load_case(s_, functions_[f].energy), s_.displacement.weights);
+      if (energies_[f].empty()) continue;
+      const Matrix weights = energies_[f].of_cases(s_.displacement.weights);
       const Matrix loads = s_.ring.boundary_loads(product(weights, Op::none, on_boundary, Op::none));
       double* to = boundary.column(static_cast<int>(f) * n_cases());
       for (size_t k = 0; k < loads.entries().size(); ++k) to[k] += loads.entries()[k];
@@ -147,6 +143,7 @@ class Loads {
   }
 
   std::span<const FunctionalDerivative<dim>> functions_;
+  std::span<const EnergyWeights<dim>> energies_;
   const RollingSolution<dim>& s_;
   Matrix ghost_;                                  ///< ghost penalty applied to the modes of v, eliminated
   std::vector<std::optional<Matrix>> materials_;  ///< of every function, by load cases, eliminated
@@ -207,47 +204,33 @@ Expected<ContactParts> contact_adjoints(const RollingSolution<dim>& s,
   return parts;
 }
 
-/// Takes the states' share off what is observed of q in `columns`: p = q - energy v.
+/// Takes the states' share off what is observed of q in `columns`: p = q - T v.
 template <int dim>
-void subtract_states(const RollingSolution<dim>& s, std::span<const FunctionalDerivative<dim>> functions,
+void subtract_states(const RollingSolution<dim>& s, std::span<const EnergyWeights<dim>> energies,
                      std::span<const int> columns, Matrix& observed) {
-  const int per_function = s.observations.columns(), n_columns = per_function / s.positions.size();
-  for (int k = 0; k < observed.columns(); ++k) {
-    const auto& energy = functions[columns[k] / per_function].energy;
-    if (energy.empty()) continue;
-    const int column = columns[k] % per_function;
-    const double factor = energy[column / n_columns], *state = s.observations.column(column);
-    for (int i = 0; i < observed.rows(); ++i) observed(i, k) -= factor * state[i];
+  const int per_function = s.observations.columns();
+  const size_t n = columns.size() / energies.size();
+  for (size_t f = 0; f < energies.size(); ++f) {
+    if (energies[f].empty()) continue;
+    std::vector<int> of_states;
+    for (const int column : columns.subspan(f * n, n)) of_states.push_back(column % per_function);
+    energies[f].add_observations(-1, s.observations, of_states, static_cast<int>(f * n), observed);
   }
 }
 
-/// Takes the energy-weighted modes of the displacement off those of q: p = q - energy v.
+/// Takes the weighted modes of the displacement off those of q: p = q - T v.
 template <int dim>
-void subtract_energy_weighted(const RollingSolution<dim>& s, const std::vector<double>& energy,
-                              const Matrix& states, Matrix& modes) {
+void subtract_states(const EnergyWeights<dim>& energy, const Matrix& states, Matrix& modes) {
   if (energy.empty()) return;
-  if (all_equal(energy)) {
-    for (size_t k = 0; k < states.entries().size(); ++k)
-      modes.entries()[k] -= energy.front() * states.entries()[k];
+  if (const auto factor = energy.common_factor()) {
+    for (size_t k = 0; k < states.entries().size(); ++k) modes.entries()[k] -= *factor * states.entries()[k];
     return;
   }
-  const Matrix weighted = energy_weighted(s, energy, states);
+  const Matrix weighted = energy.of_modes(states);
   for (size_t k = 0; k < states.entries().size(); ++k) modes.entries()[k] -= weighted.entries()[k];
 }
 
 }  // namespace
-
-template <int dim>
-Matrix energy_weighted(const RollingSolution<dim>& s, const std::vector<double>& energy, Matrix modes) {
-  // With equal factors W^T M W = 1 leaves the modes as they are.
-  if (all_equal(energy)) {
-    if (energy.front() != 1)
-      for (double& x : modes.entries()) x *= energy.front();
-    return modes;
-  }
-  const Matrix weighted = scaled_rows(by_load_case(s, energy), s.displacement.weights);
-  return product(on_modes(s, weighted), Op::none, modes, Op::none);
-}
 
 template <int dim>
 Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem,
@@ -259,14 +242,15 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
   const Tread<dim>& tread = problem.tread();
   const CyclicStiffness<dim>& ring = s.ring;
   const int n_functions = static_cast<int>(functions.size());
-  // p = q - energy v with K q = energy (G v + Nitsche's term) + the functions' own loads - S^T m.
-  Loads<dim> loads(problem, s, functions);
+  // p = q - T v with K q = T (G v + Nitsche's term) + the functions' own loads - S^T m.
+  const auto energies = energy_weights(s, functions);
+  Loads<dim> loads(problem, s, functions, energies);
   const TreadLoads on_tread = tread_loads(tread, loads.tread);
   const auto [interface, condensed_loads] = ring.eliminate_interface(loads.boundary);
   const Matrix without_contact = ring.outer_displacements(sum(condensed_loads, base_loads(tread, on_tread)));
   const auto columns = zone_columns(s, n_functions, tread.n_columns());
   Matrix observed = observations(tread, tread_field(tread, without_contact, on_tread), on_tread, columns);
-  subtract_states(s, functions, columns, observed);
+  subtract_states<dim>(s, energies, columns, observed);
   auto contact = contact_adjoints(s, functions, observed, columns);
   if (!contact) return contact.failure();
 
@@ -285,14 +269,13 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
   of_functions = unstacked(std::move(modes), n_functions);
   std::vector<Adjoint> adjoints;
   for (int f = 0; f < n_functions; ++f) {
-    subtract_energy_weighted(s, functions[f].energy, displacement.modes, of_functions[f]);
+    subtract_states(energies[f], displacement.modes, of_functions[f]);
     adjoints.push_back({std::move(of_functions[f]), contact->rim[f], contact->by_travel[f]});
   }
   return adjoints;
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
-  template decltype(energy_weighted<dim>) energy_weighted<dim>;                                            \
   template Expected<std::vector<Adjoint>> solve_adjoints(                                                  \
       const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>, \
       const SectorFields&, const PartialCholesky::Sweep&);

@@ -17,12 +17,6 @@ struct Adjoint {
   std::vector<double> by_travel;
 };
 
-/// The displacement's modes v_k weighted by a function's energy factors e_i: row k is sum_j m_j e_j w_jk v_j,
-/// with w the weights of load case j and m_j its multiplicity. When all factors are equal it is e v_k.
-/// `modes` holds one row per mode.
-template <int dim>
-Matrix energy_weighted(const RollingSolution<dim>& solution, const std::vector<double>& energy, Matrix modes);
-
 /// K p + S^T m = -dJ/dv with the transposed contact tangent, for several functions as one block of right-hand
 /// sides. Fails with no_contact when a position's contact system is singular. `displacement` is the
 /// solution's own, or complete_displacement(): p is found in the unknowns of `sweep`, in which it must hold

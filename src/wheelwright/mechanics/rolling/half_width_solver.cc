@@ -82,6 +82,13 @@ class WholeState : public State<3> {
   const LoadPositions& positions() const override { return half_->positions(); }
   const std::vector<ContactPatch<3>>& contacts() const override { return contacts_; }
   const std::vector<double>& strain_energy() const override { return strain_energy_; }
+  const std::vector<double>& energy_by_harmonic() const override {
+    std::call_once(has_harmonics_, [this] {
+      energy_by_harmonic_ = half_->energy_by_harmonic();
+      for (double& energy : energy_by_harmonic_) energy *= 2;
+    });
+    return energy_by_harmonic_;
+  }
   const Matrix& observations() const override { return observations_; }
   const std::vector<PhaseTime>& phases() const override { return phases_; }
   const Displacement<3>& displacement() const override { return displacement_; }
@@ -168,6 +175,8 @@ class WholeState : public State<3> {
   std::vector<SurfacePoint<3>> boundary_, edges_;
   std::vector<ContactPatch<3>> contacts_;
   WholeDisplacement displacement_;
+  mutable std::once_flag has_harmonics_;
+  mutable std::vector<double> energy_by_harmonic_;
 };
 
 }  // namespace

@@ -64,27 +64,34 @@ Expected<RecoveredFields<dim>> recover(const FactoredShape<dim>& shape, const Tr
                               std::move(observed), std::move(ghosts)};
 }
 
-/// Half the work of all loads, less the ghost penalty's and Nitsche's share of it.
+std::vector<double> strain_energies(const SolvedFields& fields, int n_groups,
+                                    const std::vector<double>& nitsche_factors) {
+  const auto& [displacement, observations, ghost_loads, core_loads, tread_loads, loaded_columns] = fields;
+  const int n_cases = displacement.weights.rows() / n_groups;
+  const int n_columns = observations.columns() / n_groups;
+  std::vector<double> energy(n_groups);
+  for (int i = 0; i < n_groups; ++i)
+    energy[i] = -0.5 * weighted_square(nitsche_factors, observations, i * n_columns, n_columns);
+  for (const int c : loaded_columns) energy[c / n_columns] += 0.5 * column_dot(tread_loads, observations, c);
+  const auto ghost_work = work_by_case({ghost_loads, displacement.weights}, displacement);
+  for (size_t c = 0; c < ghost_work.size(); ++c) energy[c / n_cases] -= 0.5 * ghost_work[c];
+  if (!core_loads.empty()) {
+    const auto core_work = work_by_case(core_loads, displacement);
+    for (size_t c = 0; c < core_work.size(); ++c) energy[c / n_cases] += 0.5 * core_work[c];
+  }
+  return energy;
+}
+
 template <int dim>
 Expected<std::vector<double>> strain_energies(const RecoveredFields<dim>& fields,
                                               const LoadPositions& positions, const SectorFields& core_loads,
                                               const Matrix& tread_loads,
                                               const std::vector<int>& loaded_columns,
                                               const std::vector<double>& nitsche_factors) {
-  const SectorFields& displacement = fields.displacement;
-  const int n_positions = positions.size(), n_sectors = displacement.weights.rows() / n_positions;
-  const int n_columns = fields.observations.columns() / n_positions;
-  std::vector<double> energy(n_positions);
-  for (int i = 0; i < n_positions; ++i)
-    energy[i] = -0.5 * weighted_square(nitsche_factors, fields.observations, i * n_columns, n_columns);
-  for (const int c : loaded_columns)
-    energy[c / n_columns] += 0.5 * column_dot(tread_loads, fields.observations, c);
-  const auto ghost_work = work_by_case({fields.ghost_loads, displacement.weights}, displacement);
-  for (size_t c = 0; c < ghost_work.size(); ++c) energy[c / n_sectors] -= 0.5 * ghost_work[c];
-  if (!core_loads.empty()) {
-    const auto core_work = work_by_case(core_loads, displacement);
-    for (size_t c = 0; c < core_work.size(); ++c) energy[c / n_sectors] += 0.5 * core_work[c];
-  }
+  const int n_positions = positions.size();
+  std::vector<double> energy = strain_energies(
+      {fields.displacement, fields.observations, fields.ghost_loads, core_loads, tread_loads, loaded_columns},
+      n_positions, nitsche_factors);
   for (int i = 0; i < n_positions; ++i)
     if (!(energy[i] > 0))
       return Failure{FailureReason::negative_energy,

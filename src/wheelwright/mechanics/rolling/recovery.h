@@ -22,6 +22,21 @@ Expected<RecoveredFields<dim>> recover(const FactoredShape<dim>& shape, const Tr
                                        const LoadPositions& positions, const Preloaded<dim>& preloaded,
                                        const TreadLoads& loads);
 
+/// Displacements of equally many load cases per group, and the loads that they belong to.
+struct SolvedFields {
+  const SectorFields& displacement;
+  const Matrix& observations;  ///< of the tread, group by group
+  const Matrix& ghost_loads;   ///< ghost penalty applied to the modes
+  const SectorFields& core_loads;
+  const Matrix& tread_loads;               ///< on the observations
+  const std::vector<int>& loaded_columns;  ///< of tread_loads
+};
+
+/// The strain energy of every group: half the work of all loads, less the ghost penalty's and Nitsche's share
+/// of it. `nitsche_factors` as in RollingProblem.
+std::vector<double> strain_energies(const SolvedFields& fields, int n_groups,
+                                    const std::vector<double>& nitsche_factors);
+
 /// J_e (3) of every position. `nitsche_factors` as in RollingProblem. Fails if one of them is not positive.
 template <int dim>
 Expected<std::vector<double>> strain_energies(const RecoveredFields<dim>& fields,

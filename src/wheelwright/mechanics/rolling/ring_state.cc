@@ -5,6 +5,7 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/mechanics/contact/contact_results.h"
+#include "wheelwright/mechanics/rolling/energy_by_harmonic.h"
 #include "wheelwright/mechanics/rolling/growth_gradient.h"
 #include "wheelwright/mechanics/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/mechanics/rolling/ring_displacement.h"
@@ -34,6 +35,11 @@ class RingState : public State<dim> {
   const LoadPositions& positions() const override { return solution_.positions; }
   const std::vector<ContactPatch<dim>>& contacts() const override { return contacts_; }
   const std::vector<double>& strain_energy() const override { return solution_.strain_energy; }
+  const std::vector<double>& energy_by_harmonic() const override {
+    std::call_once(has_harmonics_,
+                   [this] { energy_by_harmonic_ = wheelwright::energy_by_harmonic(problem_, solution_); });
+    return energy_by_harmonic_;
+  }
   const Matrix& observations() const override { return solution_.observations; }
   const std::vector<PhaseTime>& phases() const override { return solution_.phases; }
   const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
@@ -110,7 +116,8 @@ class RingState : public State<dim> {
   RollingSolution<dim> solution_;
   std::vector<SurfacePoint<dim>> boundary_, edges_;
   std::vector<ContactPatch<dim>> contacts_;
-  mutable std::once_flag is_recovered_, has_peaks_;
+  mutable std::once_flag is_recovered_, has_peaks_, has_harmonics_;
+  mutable std::vector<double> energy_by_harmonic_;
   mutable std::optional<RingDisplacement<dim>> displacement_;
   mutable StrainPeaks<dim> peaks_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/mechanics/rolling/energy_weights.h"
 #include "wheelwright/mechanics/rolling/work_of_loads.h"
 #include "wheelwright/shape/geometry/mirror.h"
 
@@ -103,6 +104,7 @@ class Densities {
             std::span<const FunctionalDerivative<dim>> functions, std::span<const Adjoint> adjoints)
       : problem_(problem), s_(s), functions_(functions), adjoints_(adjoints) {
     for (const Adjoint& adjoint : adjoints) loads_.emplace_back(s.model, s, adjoint);
+    for (const auto& function : functions) energies_.emplace_back(s, function);
   }
 
   /// [function][point] on a cell's moving boundary.
@@ -127,10 +129,10 @@ class Densities {
     for (size_t f = 0; f < functions_.size(); ++f) {
       gather(s_.ring, nodes, adjoints_[f].modes, p);
       const Matrix strain_p = product(p, Op::none, strains, Op::none);
-      densities.push_back(energy_and_work(functions_[f].energy, law, strain_u, strain_p));
+      densities.push_back(energy_and_work(energies_[f], law, strain_u, strain_p));
       for (size_t q = 0; q < points.size(); ++q)
         densities[f][q] += loads_[f].density(points[q], law, angle, p);
-      if (projected) add_projection(functions_[f].energy, element, law, u, p, dilatations, densities[f]);
+      if (projected) add_projection(energies_[f], element, law, u, p, dilatations, densities[f]);
       const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
       if (!integrals.empty()) add_integrands(integrals, law, strain_u, densities[f]);
     }
@@ -158,11 +160,10 @@ class Densities {
  private:
   /// energy sigma(u):eps(u) / 2 + sigma(u):eps(p) from the strains of the modes at the points, one component
   /// after the other.
-  std::vector<double> energy_and_work(const std::vector<double>& energy, const MaterialLaw<dim>& law,
+  std::vector<double> energy_and_work(const EnergyWeights<dim>& energy, const MaterialLaw<dim>& law,
                                       const Matrix& strain_u, const Matrix& strain_p) const {
     const int n_modes = strain_u.rows(), n_points = strain_u.columns() / n_strains<dim>;
-    const Matrix weighted =
-        energy.empty() ? Matrix(n_modes, strain_u.columns()) : energy_weighted(s_, energy, strain_u);
+    const Matrix weighted = energy.empty() ? Matrix(n_modes, strain_u.columns()) : energy.of_modes(strain_u);
     std::vector<double> densities(n_points, 0.0);
     Matrix sigma(n_modes, n_strains<dim>);
     for (int q = 0; q < n_points; ++q) {
@@ -180,7 +181,7 @@ class Densities {
   /// over linear pressures L q, of that of L (q div u - q^2 / 2), with K = lambda + 2 mu / dim and L =
   /// projected_lambda(). At the maximum q is the projection of div u, and the derivative to the shape is that
   /// of the integral for this q: K div u div p - L (div u - q_u) (div p - q_p) takes the place of K t_u t_p.
-  void add_projection(const std::vector<double>& energy, const ElasticElement<dim>& element,
+  void add_projection(const EnergyWeights<dim>& energy, const ElasticElement<dim>& element,
                       const MaterialLaw<dim>& law, const Matrix& u, const Matrix& p,
                       const Matrix& dilatations, std::vector<double>& densities) const {
     const Material& material = *law.isotropic();
@@ -189,7 +190,7 @@ class Densities {
     const Matrix of_u = product(u, Op::none, dilatations, Op::none);
     Matrix of_p = product(p, Op::none, dilatations, Op::none);
     if (!energy.empty()) {
-      const Matrix weighted = energy_weighted(s_, energy, of_u);
+      const Matrix weighted = energy.of_modes(of_u);
       for (size_t i = 0; i < of_p.entries().size(); ++i) of_p.data()[i] += 0.5 * weighted.data()[i];
     }
     for (size_t q = 0; q < densities.size(); ++q) {
@@ -215,7 +216,8 @@ class Densities {
   const RollingSolution<dim>& s_;
   std::span<const FunctionalDerivative<dim>> functions_;
   std::span<const Adjoint> adjoints_;
-  std::vector<WorkOfLoads<dim>> loads_;  ///< of every function
+  std::vector<WorkOfLoads<dim>> loads_;       ///< of every function
+  std::vector<EnergyWeights<dim>> energies_;  ///< of every function
 };
 
 using ByFunction = std::vector<std::vector<double>>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/mechanics/rolling/energy_weights.h"
 #include "wheelwright/mechanics/rolling/work_of_loads.h"
 #include "wheelwright/shape/geometry/mirror.h"
 
@@ -34,6 +35,7 @@ class Derivatives {
               std::span<const Adjoint> adjoints)
       : problem_(problem), s_(s), displacement_(displacement), functions_(functions), adjoints_(adjoints) {
     for (const Adjoint& adjoint : adjoints) loads_.emplace_back(s.model, s, adjoint);
+    for (const auto& function : functions) energies_.emplace_back(s, function);
   }
 
   std::vector<double> at(const MaterialPoint<dim>& point) const {
@@ -50,8 +52,7 @@ class Derivatives {
     for (size_t f = 0; f < functions_.size(); ++f) {
       gather(s_.ring, nodes, adjoints_[f].modes, p);
       double sum = -loads_[f].density(at, law, place[1] * grid.cell_size()[1], p);
-      const Matrix weighted = functions_[f].energy.empty() ? Matrix(u.rows(), u.columns())
-                                                           : energy_weighted(s_, functions_[f].energy, u);
+      const Matrix weighted = energies_[f].empty() ? Matrix(u.rows(), u.columns()) : energies_[f].of_modes(u);
       const Matrix strain_p = strains_of<dim>(p, at), strain_w = strains_of<dim>(weighted, at);
       for (int mode = 0; mode < u.rows(); ++mode) {
         Voigt<dim> strain = voigt<dim>(strain_p, mode);
@@ -88,7 +89,8 @@ class Derivatives {
   const SectorFields& displacement_;
   std::span<const FunctionalDerivative<dim>> functions_;
   std::span<const Adjoint> adjoints_;
-  std::vector<WorkOfLoads<dim>> loads_;  ///< of every function
+  std::vector<WorkOfLoads<dim>> loads_;       ///< of every function
+  std::vector<EnergyWeights<dim>> energies_;  ///< of every function
 };
 
 template <int dim>

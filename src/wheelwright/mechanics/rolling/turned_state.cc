@@ -95,6 +95,7 @@ class TurnedState : public State<dim> {
   const LoadPositions& positions() const override { return positions_; }
   const std::vector<ContactPatch<dim>>& contacts() const override { return contacts_; }
   const std::vector<double>& strain_energy() const override { return turned_->strain_energy(); }
+  const std::vector<double>& energy_by_harmonic() const override { return turned_->energy_by_harmonic(); }
   const Matrix& observations() const override { return observations_; }
   const std::vector<PhaseTime>& phases() const override { return phases_; }
   const Displacement<dim>& displacement() const override { return displacement_; }

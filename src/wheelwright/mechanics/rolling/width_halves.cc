@@ -195,6 +195,7 @@ std::vector<Vec<3>> WidthHalves::tractions(const std::vector<Vec<3>>& on_whole) 
 
 FunctionalDerivative<3> WidthHalves::derivative_of_half(const FunctionalDerivative<3>& whole) const {
   FunctionalDerivative<3> half{.energy = whole.energy,
+                               .energy_by_harmonic = whole.energy_by_harmonic,
                                .tread_loads = loads(whole.tread_loads),
                                .integrals = whole.integrals,
                                .rim = {},

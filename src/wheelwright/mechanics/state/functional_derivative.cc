@@ -1,5 +1,9 @@
 #include "wheelwright/mechanics/state/functional_derivative.h"
 
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+
 namespace wheelwright {
 namespace {
 
@@ -55,6 +59,11 @@ template <int dim>
 void add(const FunctionalDerivative<dim>& term, const std::vector<double>& factors,
          FunctionalDerivative<dim>& sum) {
   accumulate(factors, term.energy, sum.energy);
+  if (!term.energy_by_harmonic.empty()) {
+    assert(std::ranges::count(factors, factors.front()) == std::ssize(factors));
+    accumulate(std::vector<double>(term.energy_by_harmonic.size(), factors.front()), term.energy_by_harmonic,
+               sum.energy_by_harmonic);
+  }
   accumulate(factors, term.tread_loads, sum.tread_loads);
   for (const auto& integral : term.integrals) {
     sum.integrals.push_back({integral.density, {}});

@@ -67,6 +67,13 @@ struct FunctionalDerivative {
   /// dJ_i / dJ_e,i with J_e the strain energy (3), one per position; empty: zero.
   std::vector<double> energy = {};
 
+  /// dJ / dW_n, of all positions together, with the energies W_n of State::energy_by_harmonic(); empty: zero.
+  /// Only where every position was solved.
+  std::vector<double> energy_by_harmonic = {};
+
+  /// Whether it depends on strain energies.
+  bool has_energy() const { return !energy.empty() || !energy_by_harmonic.empty(); }
+
   /// Minus the derivative with respect to what the tread observes (ObservationRows); one column per
   /// (position, ring column), as State::observations(); empty: zero.
   Matrix tread_loads = {};
@@ -92,7 +99,7 @@ struct FunctionalDerivative {
 
   /// Whether it is zero because the function does not depend on the states.
   bool empty() const {
-    return energy.empty() && tread_loads.columns() == 0 && integrals.empty() && rim.empty() &&
+    return !has_energy() && tread_loads.columns() == 0 && integrals.empty() && rim.empty() &&
            tractions.empty() && growth.empty();
   }
 };
@@ -108,7 +115,8 @@ std::vector<typename FunctionalDerivative<dim>::Integral> integrals_in_row(
   return result;
 }
 
-/// Adds a term's derivative to `sum`, multiplied at each position by that position's factor.
+/// Adds a term's derivative to `sum`, multiplied at each position by that position's factor. They must be
+/// equal if the term depends on energies by harmonics.
 template <int dim>
 void add(const FunctionalDerivative<dim>& term, const std::vector<double>& factors,
          FunctionalDerivative<dim>& sum);

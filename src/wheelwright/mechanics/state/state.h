@@ -82,6 +82,12 @@ class State {
   /// J_e (3) of every position [J/m when dim = 2, J when dim = 3].
   virtual const std::vector<double>& strain_energy() const = 0;
 
+  /// The mean strain energy over a turn of the part of the strains that varies in every material point with
+  /// harmonic n of the turn, W_n [J/m when dim = 2, J when dim = 3]; n = 0 ... N / 2, where N is the number
+  /// of load cases (TurnHarmonics). Their sum is the mean of strain_energy(). Every position of the sector
+  /// must have been solved. The first call computes them; the state remembers them.
+  virtual const std::vector<double>& energy_by_harmonic() const = 0;
+
   /// The observations of the tread of the displacement without the rim's motion: rows as in ObservationRows,
   /// one column per (position, ring column).
   virtual const Matrix& observations() const = 0;
