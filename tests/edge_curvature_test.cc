@@ -104,7 +104,6 @@ TYPED_TEST(EdgeCurvatureOf, TheJetChangesWithTheRadiusAsItsDifferencesSay) {
 
 /// A round hole has the curvature of its radius all around; material between holes is no internal corner.
 TYPED_TEST(EdgeCurvatureOf, IsThatOfARoundHole) {
-  constexpr int dim = TypeParam::value;
   const auto psi = round_hole<TypeParam>();
   const auto coefficients = spline_coefficients(psi);
   const auto corners = internal_corners(coefficients, 0.5 / radius);

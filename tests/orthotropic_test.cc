@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/support.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/lu_factor.h"
