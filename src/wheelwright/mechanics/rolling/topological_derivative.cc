@@ -49,7 +49,7 @@ class Derivatives {
     std::vector<double> derivatives;
     for (size_t f = 0; f < functions_.size(); ++f) {
       gather(s_.ring, nodes, adjoints_[f].modes, p);
-      double sum = -loads_[f].density(at, law, place[1] * grid.cell_size()[1], p);
+      double sum = -loads_[f].density(at, law, place[1] * grid.column_angle(), p);
       const Matrix weighted = functions_[f].energy.empty() ? Matrix(u.rows(), u.columns())
                                                            : energy_weighted(s_, functions_[f].energy, u);
       const Matrix strain_p = strains_of<dim>(p, at), strain_w = strains_of<dim>(weighted, at);
