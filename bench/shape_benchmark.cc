@@ -191,7 +191,7 @@ class Evolution {
 
  private:
   static EvolutionOptions options(const Wheel& wheel) {
-    const double row = wheel.problem().model().grid.cell_size()[0];
+    const double row = wheel.problem().model().grid.row_height(0);
     return {.velocity = {}, .smoothing = 0, .bands = {.rim = {row, 1}, .tread = {2 * row, 2}}};
   }
 

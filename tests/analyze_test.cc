@@ -375,7 +375,7 @@ TEST(Analysis, PeaksAreThoseOfTheDisplacementField) {
             const ShapeFunctions<2> to(model.degree, ahead), from(model.degree, back);
             const Vec<2> x = map.position(to), y = map.position(from);
             const double angle = sector * model.grid.sector_angle() +
-                                 model.grid.cell_position(cell)[1] * model.grid.cell_size()[1];
+                                 model.grid.cell_position(cell)[1] * model.grid.column_angle();
             Vec<2> du{};
             for (int d = 0; d < 2; ++d)
               du[d] = (interpolate(field, nodes, std::span(to.value).first(n_nodes), d) -

@@ -91,7 +91,7 @@ void expect_whole_contact(const RollingModel<2>& model, const LevelSet<2>& psi, 
 int first_zone(const RollingModel<2>& model) {
   const double half_chord = 0.5 * std::sqrt(2 * model.grid.outer_radius * *model.travel);
   return 2 *
-         (static_cast<int>(std::ceil(half_chord / (model.grid.outer_radius * model.grid.cell_size()[1]))) +
+         (static_cast<int>(std::ceil(half_chord / (model.grid.outer_radius * model.grid.column_angle()))) +
           2);
 }
 

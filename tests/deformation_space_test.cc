@@ -174,7 +174,7 @@ TEST(DeformationSpace, AUniformFieldShiftsAHole) {
                  shifted{centre[0] + distance * std::cos(angle), centre[1] + distance * std::sin(angle)};
     for (const auto& sample : boundary_samples<2>(moved)) {
       const auto cell = lattice.grid().cell_position(sample.cell);
-      const Vec<2> size = lattice.grid().cell_size();
+      const Vec<2> size = lattice.grid().cell_size(0);
       const Vec<2> x = cartesian<2>({lattice.grid().inner_radius + (cell[0] + sample.xi[0]) * size[0],
                                      (cell[1] + sample.xi[1]) * size[1]});
       EXPECT_NEAR(std::hypot(x[0] - shifted[0], x[1] - shifted[1]), hole.hole_radius,
@@ -196,7 +196,7 @@ TEST(DeformationSpace, MovingAThinWallCostsLessThanThickeningIt) {
   const auto cost = [&](double lower_edge) {
     for (auto& sample : samples) {
       const auto position = lattice.grid().cell_position(sample.cell);
-      const double radius = 0.20 + (position[0] + sample.xi[0]) * lattice.grid().cell_size()[0];
+      const double radius = 0.20 + (position[0] + sample.xi[0]) * lattice.grid().row_height(0);
       const bool is_near = std::abs(radius - middle) < 3 * cell;
       sample.value = !is_near ? 0 : radius < middle ? lower_edge : 1;
     }

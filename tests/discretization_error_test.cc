@@ -152,7 +152,7 @@ TEST(FinerGrid, HasTheSameWheel) {
     const Vec<2> place{0.2 + 0.14 * t, 7 * t};
     EXPECT_NEAR(value_at<2>(there, place), value_at<2>(psi, place), 1e-15);
   }
-  EXPECT_NEAR(finer.tread.rows * finer.grid.cell_size()[0], model.tread.rows * model.grid.cell_size()[0],
+  EXPECT_NEAR(finer.tread.rows * finer.grid.row_height(0), model.tread.rows * model.grid.row_height(0),
               1e-15);
   EXPECT_NEAR(dof_bound(model), 2.0 * 29 * 384, 1e-9);
 }
@@ -185,7 +185,7 @@ TEST(FinerGrid, KeepsTheThicknessOfAnObservedAnnulus) {
   for (const int rows : {1, 2, 3}) {
     model.tread.rows = rows;
     const auto finer = on_finer_grid(model);
-    EXPECT_NEAR(finer.tread.rows * finer.grid.cell_size()[0], rows * model.grid.cell_size()[0], 1e-15);
+    EXPECT_NEAR(finer.tread.rows * finer.grid.row_height(0), rows * model.grid.row_height(0), 1e-15);
   }
 }
 

@@ -12,20 +12,28 @@ using namespace wheelwright;
 
 namespace {
 
-template <int dim>
-Lattice<dim> lattice_of() {
-  if constexpr (dim == 2)
-    return {{0.20, 0.34, 0.12, 12, {28, 32}}, 2};
-  else
-    return {{0.20, 0.34, 0.08, 12, {26, 26, 15}}, 2};
-}
+/// Rows of equal height, or of unequal ones that meet in the middle of the hole.
+template <int dimension, bool are_equal>
+struct Rows {
+  static constexpr int value = dimension;
+
+  static Lattice<dimension> lattice() {
+    std::vector<FixedLine> lines;
+    if (!are_equal) lines = {{13, 0.274}};
+    if constexpr (dimension == 2)
+      return {{0.20, 0.34, 0.12, 12, {28, 32}, lines}, 2};
+    else
+      return {{0.20, 0.34, 0.08, 12, {26, 26, 15}, lines}, 2};
+  }
+};
 
 constexpr double radius = 0.03;
 
 /// A hole around a point off all nodes and planes of symmetry: a disk in 2D, a ball in 3D.
-template <int dim>
-LevelSet<dim> round_hole() {
-  const auto lattice = lattice_of<dim>();
+template <class Rows>
+LevelSet<Rows::value> round_hole() {
+  constexpr int dim = Rows::value;
+  const auto lattice = Rows::lattice();
   Vec<dim> centre{0.271, 0.23};
   if constexpr (dim == 3) centre[2] = 0.041;
   const auto middle = cartesian<dim>(centre);
@@ -51,7 +59,7 @@ Jet<dim> some_jet() {
 
 template <class Size>
 class EdgeCurvatureOf : public ::testing::Test {};
-using Sizes = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+using Sizes = ::testing::Types<Rows<2, true>, Rows<3, true>, Rows<2, false>>;
 TYPED_TEST_SUITE(EdgeCurvatureOf, Sizes);
 
 }  // namespace
@@ -96,8 +104,7 @@ TYPED_TEST(EdgeCurvatureOf, TheJetChangesWithTheRadiusAsItsDifferencesSay) {
 
 /// A round hole has the curvature of its radius all around; material between holes is no internal corner.
 TYPED_TEST(EdgeCurvatureOf, IsThatOfARoundHole) {
-  constexpr int dim = TypeParam::value;
-  const auto psi = round_hole<dim>();
+  const auto psi = round_hole<TypeParam>();
   const auto coefficients = spline_coefficients(psi);
   const auto corners = internal_corners(coefficients, 0.5 / radius);
   ASSERT_GT(corners.size(), 50u);
@@ -113,7 +120,7 @@ TYPED_TEST(EdgeCurvatureOf, IsThatOfARoundHole) {
 /// lines along all axes.
 TYPED_TEST(EdgeCurvatureOf, ChangesWithTheCoefficientsAsItsDerivativeSays) {
   constexpr int dim = TypeParam::value;
-  const auto coefficients = spline_coefficients(round_hole<dim>());
+  const auto coefficients = spline_coefficients(round_hole<TypeParam>());
   const double h = coefficients.lattice.grid().resolution();
   const auto corners = internal_corners(coefficients, 0.5 / radius);
   const auto changed = [&](double step) {

@@ -322,7 +322,7 @@ struct Face {
 
   Face(const PolarGrid<dim>& grid, int axis) : minus{}, plus{} {
     plus[axis] = 1;
-    angle = axis == 1 ? grid.cell_size()[1] : 0.0;
+    angle = axis == 1 ? grid.column_angle() : 0.0;
   }
 
   std::vector<double> interpolate_both(const PolarGrid<dim>& grid, int degree,
@@ -416,7 +416,7 @@ TEST(Ghost, PenalizesTheJumpOfTheStress) {
     const Face<2> face(grid, 0);
     const ElasticElement<2> minus(grid, degree, face.minus, IsotropicLaw<2>(material)),
         plus(grid, degree, face.plus, IsotropicLaw<2>(material));
-    const double radius = grid.inner_radius + grid.cell_size()[0], xi = 0.37;
+    const double radius = grid.inner_radius + grid.row_height(0), xi = 0.37;
     const Field<2> kink = [&](const Vec<2>& x) {
       const double r = norm<2>(x), u = std::max(r - radius, 0.0) / r;
       return Vec<2>{u * x[0], u * x[1]};
@@ -426,7 +426,7 @@ TEST(Ghost, PenalizesTheJumpOfTheStress) {
     const double h = 0.5 * (minus.size_across(0) + plus.size_across(0));
     const double jump = material.lambda() + 2 * material.mu();
     const double expected =
-        xi * h / (2 * material.youngs_modulus) * jump * jump * radius * grid.cell_size()[1];
+        xi * h / (2 * material.youngs_modulus) * jump * jump * radius * grid.column_angle();
     EXPECT_NEAR(energy(k, face.interpolate_both(grid, degree, kink)), expected, 5e-3 * expected) << degree;
   }
 }
@@ -437,7 +437,7 @@ TEST(Ghost, PenalizesTheJumpOfTheSecondDerivative) {
   const Face<2> face(grid, 0);
   const ElasticElement<2> minus(grid, 2, face.minus, IsotropicLaw<2>(material)),
       plus(grid, 2, face.plus, IsotropicLaw<2>(material));
-  const double radius = grid.inner_radius + grid.cell_size()[0], xi = 0.37;
+  const double radius = grid.inner_radius + grid.row_height(0), xi = 0.37;
   const Field<2> bend = [&](const Vec<2>& x) {
     const double r = norm<2>(x), s = std::max(r - radius, 0.0), u = 0.5 * s * s / r;
     return Vec<2>{u * x[0], u * x[1]};
@@ -445,7 +445,7 @@ TEST(Ghost, PenalizesTheJumpOfTheSecondDerivative) {
   const Matrix k =
       ghost_stiffness<2>(minus, plus, 0, face.angle, IsotropicLaw<2>(material), {GhostPenaltyKind::full, xi});
   const double h = 0.5 * (minus.size_across(0) + plus.size_across(0));
-  const double expected = 0.5 * xi * h * h * h * material.youngs_modulus * radius * grid.cell_size()[1];
+  const double expected = 0.5 * xi * h * h * h * material.youngs_modulus * radius * grid.column_angle();
   EXPECT_NEAR(energy(k, face.interpolate_both(grid, 2, bend)), expected, 5e-3 * expected);
 }
 

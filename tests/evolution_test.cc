@@ -46,7 +46,7 @@ std::vector<double> turned(const Lattice<2>& lattice, const std::vector<double>&
 }
 
 Vec<2> polar_of(const Lattice<2>& lattice, const Vec<2>& point) {
-  return {lattice.grid().inner_radius + point[0] * lattice.spacing()[0], point[1] * lattice.spacing()[1]};
+  return {lattice.grid().inner_radius + point[0] * lattice.spacing(0)[0], point[1] * lattice.node_angle()};
 }
 
 /// Largest | signed distance to `circle` | over the zero line.
@@ -64,8 +64,7 @@ double boundary_error(const LevelSet<2>& psi, const Circle& circle) {
   double error = 0;
   for (const auto& sample : boundary_samples<2>(psi)) {
     const auto cell = grid.cell_position(sample.cell);
-    const Vec<2> polar{grid.inner_radius + (cell[0] + sample.xi[0]) * grid.cell_size()[0],
-                       (cell[1] + sample.xi[1]) * grid.cell_size()[1]};
+    const Vec<2> polar{grid.radius(cell[0] + sample.xi[0]), (cell[1] + sample.xi[1]) * grid.column_angle()};
     error = std::max(error, std::abs(signed_distance<2>(grid, {&circle, 1}, polar)));
   }
   return error;
@@ -288,9 +287,9 @@ double gradient_error(const LevelSet<2>& psi) {
         value += values[a] * shape.value[a];
         for (int d = 0; d < 2; ++d) gradient[d] += values[a] * shape.gradient[a][d];
       }
-      const double radius = grid.inner_radius + (position[0] + xi[0]) * grid.cell_size()[0];
-      gradient[0] /= grid.cell_size()[0];
-      gradient[1] /= grid.cell_size()[1] * radius;
+      const double radius = grid.radius(position[0] + xi[0]);
+      gradient[0] /= grid.row_height(0);
+      gradient[1] /= grid.column_angle() * radius;
       if (std::abs(value) < band) error = std::max(error, std::abs(norm<2>(gradient) - 1));
     }
   }
@@ -424,7 +423,7 @@ TEST(ProtectedBands, CutHolesOffAtTheirEdges) {
   }
   for (const auto& sample : boundary_samples<2>(kept)) {
     const auto cell = grid.cell_position(sample.cell);
-    const double radius = grid.inner_radius + (cell[0] + sample.xi[0]) * grid.cell_size()[0];
+    const double radius = grid.radius(cell[0] + sample.xi[0]);
     EXPECT_GT(radius, 0.2125);
     EXPECT_LT(radius, 0.3025);
   }

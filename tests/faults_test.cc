@@ -100,8 +100,8 @@ class FaultyObjective {
     auto gradient = some_gradient(psi);
     for (const auto& sample : gradient) {
       const auto cell = grid.cell_position(sample.cell);
-      const double radius = grid.inner_radius + (cell[0] + sample.xi[0]) * grid.cell_size()[0];
-      const double azimuth = (cell[1] + sample.xi[1]) * grid.cell_size()[1];
+      const double radius = grid.radius(cell[0] + sample.xi[0]);
+      const double azimuth = (cell[1] + sample.xi[1]) * grid.column_angle();
       // The area of the hole about the point (0.3, 0.3 sector): the divergence theorem.
       const Vec<2> x = cartesian<2>({radius, azimuth}), middle = cartesian<2>({0.3, 0.3 * sector});
       const Vec<2> d{x[0] - middle[0], x[1] - middle[1]};
@@ -109,8 +109,8 @@ class FaultyObjective {
     }
     for (auto& sample : gradient) {
       const auto cell = grid.cell_position(sample.cell);
-      const Vec<2> x = cartesian<2>({grid.inner_radius + (cell[0] + sample.xi[0]) * grid.cell_size()[0],
-                                     (cell[1] + sample.xi[1]) * grid.cell_size()[1]});
+      const Vec<2> x =
+          cartesian<2>({grid.radius(cell[0] + sample.xi[0]), (cell[1] + sample.xi[1]) * grid.column_angle()});
       const Vec<2> middle = cartesian<2>({0.3, 0.3 * sector});
       sample.value = -(std::pow(x[0] - middle[0], 2) + std::pow(x[1] - middle[1], 2));
     }

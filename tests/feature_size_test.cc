@@ -108,7 +108,7 @@ TEST(FeatureSize, NecksBetweenNodesGetTheMinimumThickness) {
   for (const double rows : {0.0, 0.125, 0.25, 0.375})
     for (const double columns : {0.0, 0.25}) {
       const double radius = 0.27 + rows * cell, spacing = 2 * std::asin((r + 0.175 * cell) / radius),
-                   at = columns * grid.cell_size()[1];
+                   at = columns * grid.column_angle();
       const auto psi = holes(grid, 2, {{radius, at - spacing / 2, r}, {radius, at + spacing / 2, r}});
       ASSERT_FALSE(thin_walls(psi, 0.3 * wall).empty());
       EXPECT_TRUE(thin_walls(with_thick_walls(psi, wall), 0.5 * 0.97 * wall).empty())
@@ -219,7 +219,7 @@ TEST(FeatureSize, DropsAreFilledUntilNoGapIsNarrow) {
   const double cell = grid.resolution(), gap = 1.12 * cell, length = 6 * cell;
   for (int k = 0; k < 40; ++k) {
     const double radius = (0.35 + 0.02 * k) * cell,
-                 at = 0.5 * grid.sector_angle() + 0.03 * k * grid.cell_size()[1];
+                 at = 0.5 * grid.sector_angle() + 0.03 * k * grid.column_angle();
     LevelSet<2> psi = holes(grid, 2, {});
     for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
       const Vec<2> p = psi.lattice.polar_point(node);

@@ -118,7 +118,7 @@ TEST(Changes, NameHolesLostOnTheGrid) {
   c.grid.radial_cells = 28;
   c.grid.angular_cells = 384;
   c.grid.level_set_degree = 1;
-  const double off_the_nodes = grid.inner_radius + 14.5 * grid.cell_size()[0];
+  const double off_the_nodes = grid.radius(14.5);
   c.holes.rings = {{.count = 16, .center_radius = off_the_nodes, .radius = 0.03, .phase = {}}};
   EXPECT_TRUE(lost_on_the_grid<2>(c).empty());
   c.holes.rings = {

@@ -117,14 +117,14 @@ class PlaneWheel {
         const ShapeFunctions<2> shape(lattice_.degree(), {1, q.xi[0]});
         const int of_ring = wrap(column, grid.ring_columns());
         ContactPoint point{ring_cell_nodes<2>(lattice_, {last, of_ring}), {}, 0, 0};
-        const Vec<2> x = rotated<2>(map.position(shape), column * grid.cell_size()[1]);
+        const Vec<2> x = rotated<2>(map.position(shape), column * grid.column_angle());
         for (int a = 0; a < 9; ++a) {
           const double azimuth = node_azimuth(point.nodes[a]);
           point.towards_ground[2 * a] = shape.value[a] * std::cos(azimuth);
           point.towards_ground[2 * a + 1] = -shape.value[a] * std::sin(azimuth);
         }
         point.height = x[0];
-        point.weight = q.weight * grid.outer_radius * grid.cell_size()[1];
+        point.weight = q.weight * grid.outer_radius * grid.column_angle();
         contact_points_.push_back(point);
       }
   }

@@ -11,6 +11,7 @@
 #include "wheelwright/cad/outline/check_outline.h"
 #include "wheelwright/cad/outline/cut_outline.h"
 #include "wheelwright/cad/outline/fit_outline.h"
+#include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/lu_factor.h"
@@ -28,6 +29,7 @@
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/geometry/components.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 namespace {
@@ -125,15 +127,22 @@ double torsional_stiffness(double inner, const std::vector<std::pair<double, Mat
 }
 
 TEST(Layers, OfABushHaveTheExactStiffnesses) {
-  for (const Plane plane : {Plane::strain, Plane::stress})
-    for (const double contrast : {1.0, 30.0, 1e5}) {
+  const std::pair<double, double> on_lines{0.235, 0.27}, between_lines{0.2431, 0.2683};
+  for (const auto& [radii, contrast] : {std::pair{on_lines, 1.0},
+                                        {on_lines, 30.0},
+                                        {on_lines, 1e5},
+                                        {between_lines, 30.0},
+                                        {between_lines, 1e5}})
+    for (const Plane plane : {Plane::strain, Plane::stress}) {
       SCOPED_TRACE(contrast);
+      const auto [first, second] = radii;
       const std::vector<std::pair<double, Material>> layers{
-          {0.235, {2e6, 0.3, plane}}, {0.27, {2e6 * contrast, 0.35, plane}}, {0.34, {3e6, 0.48, plane}}};
+          {first, {2e6, 0.3, plane}}, {second, {2e6 * contrast, 0.35, plane}}, {0.34, {3e6, 0.48, plane}}};
       double errors[2], turns[2];
       for (const int level : {0, 1}) {
         auto model = bushing(8 << level, 64 << level);
         model.materials = layered<2>(layers);
+        model.grid = with_lines_at(model.grid, model.materials.interfaces());
         const double exact = radial_stiffness(0.2, layers);
         const auto state = solved(model, full(model.grid));
         errors[level] = std::abs(model.load / state->contacts()[0].rim.towards_ground / exact - 1);
@@ -182,17 +191,20 @@ TEST(Layers, OnAStiffCoreTendToAWheelOnARigidOne) {
   EXPECT_NEAR(differences[0] / differences[1], 100, 5);
 }
 
-/// Holes that cross from one material to another, without symmetry, with friction.
+/// Holes that cross from one material to another, without symmetry, with friction; also between rows of
+/// unequal height.
 TEST(Layers, ShapeGradientPassesTheTaylorTest) {
-  for (const double contrast : {0.02, 50.0})
+  for (const auto& [contrast, interface] :
+       {std::pair{0.02, 0.27}, {50.0, 0.27}, {0.02, 0.2664}, {50.0, 0.2664}})
     for (const double nu : {0.3, 0.4999}) {
-      SCOPED_TRACE(contrast);
+      SCOPED_TRACE(::testing::Message() << contrast << " at " << interface);
       auto model = paper_model(14, 192);
       model.n_positions = 3;
       model.contact.friction = 0.3;
       model.horizontal_force = 0.1 * model.load;
-      model.materials = layered<2>(
-          {{0.27, {200e6 * contrast, nu, Plane::strain, 8000}}, {0.34, {200e6, 0.3, Plane::strain, 1100}}});
+      model.materials = layered<2>({{interface, {200e6 * contrast, nu, Plane::strain, 8000}},
+                                    {0.34, {200e6, 0.3, Plane::strain, 1100}}});
+      model.grid = with_lines_at(model.grid, {interface});
       const auto problem = RollingProblem<2>::create(model);
       ASSERT_TRUE(problem);
       for (const WeightedSum<2>& terms :
@@ -303,7 +315,7 @@ TEST(Layers, HaveStressesOfTheirOwnAtAnInterface) {
   double traction = 0, traction_jump = 0, hoop_jump = 0;
   for (int k = 0; k < lattice.nodes()[1] * model.grid.n_sectors; ++k) {
     const size_t node = ring_node<2>(lattice, {line, k});
-    const double azimuth = k * lattice.spacing()[1], c = std::cos(azimuth), s = std::sin(azimuth);
+    const double azimuth = k * lattice.node_angle(), c = std::cos(azimuth), s = std::sin(azimuth);
     const auto parts = [&](const std::vector<double>& values) {
       const double* t = &values[stress.components * node];  // xx, yy, zz, xy
       return std::array{c * c * t[0] + s * s * t[1] + 2 * c * s * t[3],
@@ -348,11 +360,49 @@ TEST(Layers, EndOnLinesOfFinerGrids) {
   EXPECT_FALSE(RollingProblem<3>::create(model));
 }
 
+/// Where rows are unequal every one is divided, so that all are finer.
+TEST(Layers, EndOnLinesOfFinerGridsOfUnequalRows) {
+  const auto expect_finer = [](auto model, int least) {
+    model.grid = with_lines_at(model.grid, model.materials.interfaces());
+    const auto finer = on_finer_grid(model);
+    EXPECT_TRUE(finer.materials.fit(finer.grid));
+    EXPECT_GE(refinement(model.grid, finer.grid), 4.0 / 3 - 1e-12);
+    EXPECT_LE(finer.grid.cells[0], 2 * model.grid.cells[0]);
+    EXPECT_GE(finer.grid.cells[0], least);
+    for (int row = 0; row < model.grid.cells[0]; ++row)
+      EXPECT_LT(finer.grid.row_height(finer.grid.row_at(model.grid.middle_of_row(row))),
+                0.76 * model.grid.row_height(row));
+    const auto [line, distance] =
+        finer.grid.nearest_line(model.grid.radius(model.grid.cells[0] - model.tread.rows));
+    EXPECT_EQ(finer.grid.cells[0] - line, finer.tread.rows);
+    EXPECT_NEAR(distance, 0, 1e-15);
+  };
+  RollingModel<2> plane;
+  plane.grid = {0.20, 0.34, 0.12, 16, {14, 6}};
+  plane.materials = layered<2>({{0.2337, {200e6, 0.3}}, {0.2412, {10e6, 0.3}}, {0.34, {200e6, 0.3}}});
+  plane.tread = {2, 0, 3};
+  expect_finer(plane, 28);
+  RollingModel<3> solid;
+  solid.grid = {0.20, 0.34, 0.12, 16, {14, 6, 4}};
+  solid.materials = layered<3>({{0.2337, {200e6, 0.3}}, {0.2412, {10e6, 0.3}}, {0.34, {200e6, 0.3}}});
+  solid.tread = {2, 0, 3};
+  expect_finer(solid, 19);
+}
+
 /// The response of a stiff band on a soft layer does not decay within half the ring: a band and its bed must
 /// not be condensed together.
 TEST(Layers, AreNotCondensedTogetherAtTheTread) {
   auto model = paper_model(14, 192);
   model.materials = layered<2>({{0.33, {2e6, 0.3}}, {0.34, {200e9, 0.3}}});
+  EXPECT_TRUE(RollingProblem<2>::create(model));
+  model.tread.rows = 2;
+  EXPECT_FALSE(RollingProblem<2>::create(model));
+}
+
+/// So do those of a model whose condensed rows are of unequal height.
+TEST(Layers, AreNotCondensedWithRowsOfUnequalHeight) {
+  auto model = paper_model(14, 192);
+  model.grid = with_lines_at(model.grid, {0.3317});
   EXPECT_TRUE(RollingProblem<2>::create(model));
   model.tread.rows = 2;
   EXPECT_FALSE(RollingProblem<2>::create(model));
@@ -377,11 +427,60 @@ TEST(Layers, OfACaseFillTheRing) {
   EXPECT_FALSE(ring[1].layer);
   EXPECT_EQ(ring[1].outer_radius, 0.09);
   EXPECT_EQ(tread_material(*good.value).youngs_modulus(), 30e6);
-  // The number of rows is one with which the layers end on lines.
-  EXPECT_TRUE(layers_fit(*good.value, good.value->grid.radial_cells));
+  // Layers end on lines of the grid.
+  EXPECT_TRUE(materials<2>(*good.value).fit(polar_grid<2>(*good.value)));
   EXPECT_GE(bands(*good.value).rim.thickness, 0.01 - 1e-12);
   // A thin layer on a stiff core is stiffer than a body of its material, and the patch is smaller.
   EXPECT_GT(effective_contact_modulus(*good.value), tread_material(*good.value).contact_modulus());
+}
+
+/// The rows of the grid move to the radii of layers and of the annulus, on all grids of a run.
+TEST(Layers, OfACaseNeedNotFitTheGrid) {
+  const std::string layers =
+      "[[material.layer]]\ninner_radius = 0.0612\nouter_radius = 0.0787\nyoungs_modulus = "
+      "30e6\npoissons_ratio = "
+      "0.4\n[[material.layer]]\ninner_radius = 0.0917\nyoungs_modulus = 30e6\npoissons_ratio = 0.4\n";
+  for (const std::string& more :
+       {std::string(), std::string("[grid]\nradial_cells = 20\n[optimizer]\ntread_band = 0.006\n"),
+        std::string("[grid]\nradial_cells = 20\n[optimizer]\ntread_band = 0.006\ncoarse_levels = 1\n"),
+        std::string(
+            "[objective]\nuniformity_annulus = 1\nannulus = 0.0043\n[optimizer]\ntread_band = 0.008\n")}) {
+    SCOPED_TRACE(more);
+    const auto result = layered_case(layers, more);
+    ASSERT_TRUE(result.value) << result.problems.front().text();
+    for (int level = 0; level <= result.value->optimizer.coarse_levels; ++level) {
+      const Case c = on_coarser_grid(*result.value, level);
+      const PolarGrid<2> grid = polar_grid<2>(c);
+      EXPECT_EQ(grid.cells[0], c.grid.radial_cells);
+      EXPECT_EQ(grid.n_sectors, c.wheel.sectors);
+      for (const double radius : {0.0612, 0.0787, 0.0917})
+        EXPECT_NEAR(grid.nearest_line(radius).distance, 0, 1e-15);
+      EXPECT_TRUE(RollingProblem<2>::create(rolling_model<2>(c)));
+      if (wants_annulus(c)) {
+        EXPECT_NEAR(grid.height_of_rows(grid.cells[0] - tread_rows(c), grid.cells[0]), 0.0043, 1e-12);
+      }
+    }
+  }
+  const auto problems = layered_case(layers, "[grid]\nradial_cells = 3\n").problems;
+  EXPECT_TRUE(std::ranges::any_of(
+      problems, [](const Diagnostic& problem) { return problem.key == "grid.radial_cells"; }));
+}
+
+/// A row beside a thin layer is named, and a number of rows with which it is not.
+TEST(Layers, ThatAreThinGetAWarning) {
+  const auto of = [](int rows) {
+    const auto result = layered_case(
+        "[[material.layer]]\nname = \"foil\"\ninner_radius = 0.08\nouter_radius = 0.0803\nyoungs_modulus = "
+        "30e6\npoissons_ratio = 0.4\n",
+        "[optimizer]\ntread_band = 0.006\n[grid]\nradial_cells = " + std::to_string(rows) + "\n");
+    EXPECT_TRUE(result.value) << result.problems.front().text();
+    for (const std::string& warning : warnings(*result.value))
+      if (warning.find("foil") != std::string::npos) return warning;
+    return std::string();
+  };
+  const std::string warning = of(20), text = "grid.radial_cells = ";
+  ASSERT_NE(warning.find(text), std::string::npos) << warning;
+  EXPECT_EQ(of(std::stoi(warning.substr(warning.find(text) + text.size()))), "");
 }
 
 /// Neighbours without holes are one band, up to the tread: no edge of a band lies between them.
@@ -612,7 +711,6 @@ TEST(Layers, ThatCannotBeAreRefusedByKey) {
           "material.layer[2].name");
   refuses("[[material.layer]]\ninner_radius = 0.09\npoissons_ratio = 0.4\n",
           "material.layer[1].youngs_modulus");
-  refuses(layer + "inner_radius = 0.0912345\n[grid]\nradial_cells = 20\n", "material.layer[1].inner_radius");
   refuses("[[material.layer]]\ninner_radius = 0.09\nyoungs_modulus = 3e6\npoissons_ratio = 0.499995\n",
           "material.layer[1].poissons_ratio");
   refuses(layer + "inner_radius = 0.09\n[objective]\nminimize = \"mass\"\n", "objective.minimize");

@@ -57,7 +57,7 @@ TEST(Loads, WorkOfABodyForce) {
   const auto s = problem->solve(solid(model.grid));
   ASSERT_TRUE(s) << s.failure().detail;
   // On (r - R_i)(R - r) along f, R the core's outer radius.
-  const double inner = model.grid.inner_radius, outer = model.grid.outer_radius - model.grid.cell_size()[0];
+  const double inner = model.grid.inner_radius, outer = model.grid.outer_radius - model.grid.row_height(0);
   const auto profile = [&](double r) { return (r - inner) * (outer - r); };
   const Vec<2>& f = model.distributed.body_force;
   const double work = work_on(*s, [&](double r, double azimuth) {

@@ -200,7 +200,7 @@ TEST(MirrorSymmetry, EvolutionKeepsIt) {
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
   auto psi = symmetric_holes(model.grid);
-  const double row = model.grid.cell_size()[0];
+  const double row = model.grid.row_height(0);
   const Evolver<2> evolver(
       psi.lattice, {.velocity = {}, .smoothing = 0.1, .bands = {.rim = {row, 1}, .tread = {2 * row, 2}}});
   for (int shape = 0; shape < 5; ++shape) {

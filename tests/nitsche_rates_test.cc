@@ -73,7 +73,7 @@ double energy_error(const Pressed& coarse, const Pressed& reference) {
         auto p = local_node_position<2>(degree, a);
         p[0] += degree * row;
         p[1] += degree * column;
-        const double azimuth = p[1] * lattice.spacing()[1];
+        const double azimuth = p[1] * lattice.node_angle();
         const Vec<2> polar = rotated<2>(difference(p), -azimuth);
         e.insert(e.end(), polar.begin(), polar.end());
       }

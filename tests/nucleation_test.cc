@@ -22,7 +22,7 @@ struct Costs {
 
 Costs costs_around(const PolarGrid<2>& grid, double radius, double azimuth, bool with_image) {
   Costs costs;
-  const Vec<2> h = grid.cell_size();
+  const Vec<2> h = grid.cell_size(0);
   const auto distance = [&](const Vec<2>& polar, double at) {
     const double along = polar[0] * std::remainder(polar[1] - at, grid.sector_angle());
     return std::hypot(polar[0] - radius, along);

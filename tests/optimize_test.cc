@@ -47,7 +47,7 @@ Vec<2> polar_of(const SurfaceSample<2>& sample) {
   const auto cell = grid.cell_position(sample.cell);
   const Vec<2> x =
       CellMap<2>(grid, lattice.degree(), cell).position(ShapeFunctions<2>(lattice.degree(), sample.xi));
-  return {norm<2>(x), std::atan2(x[1], x[0]) + cell[1] * grid.cell_size()[1]};
+  return {norm<2>(x), std::atan2(x[1], x[0]) + cell[1] * grid.column_angle()};
 }
 
 Evaluation<2> evaluate_bowl(const LevelSet<2>& psi, const Bowl& bowl = {}) {

@@ -303,7 +303,7 @@ TEST(FitOutline, OneSectorGivesTheSameWheel) {
 TEST(FitOutline, CornersAreKept) {
   // psi = w - |r - r_0| - R |azimuth - azimuth_0| with r_0 and azimuth_0 on lines of the grid.
   const PolarGrid<2> grid = wheel(16);
-  const double r_0 = 0.27, azimuth_0 = 12 * grid.cell_size()[1], w = 0.0223, scale = 0.25;
+  const double r_0 = 0.27, azimuth_0 = 12 * grid.column_angle(), w = 0.0223, scale = 0.25;
   LevelSet<2> psi{Lattice<2>(grid, 2), {}};
   for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
     const Vec<2> polar = psi.lattice.polar_point(i);

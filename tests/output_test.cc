@@ -513,9 +513,9 @@ TEST(MeshSvg, CirclesAndRaysRunAlongTheSidesOfTheCells) {
   for (std::sregex_iterator it(path.begin(), path.end(), ray), end; it != end; ++it, ++rays)
     for (int k : {1, 3})
       expect_at(*it, k, k == 1 ? wheel_grid.inner_radius : wheel_grid.outer_radius,
-                rays * wheel_grid.cell_size()[1]);
+                rays * wheel_grid.column_angle());
   for (std::sregex_iterator it(path.begin(), path.end(), circle), end; it != end; ++it, ++circles) {
-    const double radius = wheel_grid.inner_radius + circles * wheel_grid.cell_size()[0];
+    const double radius = wheel_grid.radius(circles);
     for (int half = 0; half <= 2; ++half)
       expect_at(*it, 1 + 4 * half, radius, 0.5 * half * wheel_grid.sector_angle());
     for (int k : {3, 4, 7, 8}) EXPECT_NEAR(std::stod((*it)[k]), radius * metre, 0.5001);

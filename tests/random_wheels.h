@@ -336,22 +336,24 @@ class LayeredWheels {
 
   Case draw() {
     Case c = wheels_.draw();
-    const double row = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
     const auto uniform = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random_); };
     const auto integer = [&](int a, int b) { return std::uniform_int_distribution(a, b)(random_); };
-    int line = integer(0, c.grid.radial_cells / 2);
-    for (int k = integer(1, 3); k > 0 && line + 1 < c.grid.radial_cells; --k) {
-      const int end = integer(line + 1, c.grid.radial_cells - 1);
+    const auto radius = [&](double share) {
+      return std::lerp(c.wheel.inner_radius, c.wheel.outer_radius, share);
+    };
+    double share = uniform(0, 1) < 0.3 ? 0 : uniform(0, 0.5);
+    for (int k = integer(1, 3); k > 0; --k) {
+      const double end = uniform(share, 1);
       MaterialLayer layer;
-      layer.inner_radius = c.wheel.inner_radius + line * row;
-      layer.outer_radius = c.wheel.inner_radius + end * row;
+      layer.inner_radius = radius(share);
+      layer.outer_radius = radius(end);
       layer.youngs_modulus =
           std::clamp(c.material.youngs_modulus * std::exp(uniform(std::log(1e-3), std::log(1e5))), 1.0, 1e13);
       layer.poissons_ratio = uniform(0, 1) < 0.8 ? uniform(0, 0.48) : uniform(0.485, 0.4999);
       if (c.material.density) layer.density = uniform(10, 1e4);
       if (uniform(0, 1) < 0.3) layer.holes = LayerHoles::none;
       c.layers.push_back(layer);
-      line = end;
+      share = end;
     }
     return c;
   }

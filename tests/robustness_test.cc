@@ -40,7 +40,7 @@ class ShapeGenerator {
   double tiny() { return (chance(0.5) ? 1 : -1) * h() * std::pow(10, uniform(-10, 0)); }
 
   Hole draw_hole(const std::vector<Hole>& others) {
-    const double row = grid_.cell_size()[0];
+    const double row = grid_.row_height(0);
     const double lowest = grid_.inner_radius + 1.1 * row, highest = grid_.outer_radius - 2.1 * row;
     Hole hole;
     hole.radius = std::min(0.4 * h() * std::pow(15, uniform(0, 1)), 0.499 * (highest - lowest));
@@ -58,7 +58,7 @@ class ShapeGenerator {
       const double edge = hole.centre_radius + hole.radius - grid_.inner_radius;
       hole.centre_radius += std::round(edge / row) * row - edge + tiny();
     } else if (kind < 0.55) {  // nearly tangent to a radius of the grid
-      const double column = grid_.cell_size()[1], half_angle = std::asin(hole.radius / hole.centre_radius);
+      const double column = grid_.column_angle(), half_angle = std::asin(hole.radius / hole.centre_radius);
       hole.azimuth = std::round(hole.azimuth / column) * column - half_angle + tiny() / 0.27;
     }
     return hole;

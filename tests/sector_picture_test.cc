@@ -45,11 +45,11 @@ double ring_area(double inner, double outer) { return std::numbers::pi * (outer 
 TEST(SectorSvg, ColoursCoverValuesOfTheirSign) {
   const auto psi = paper_holes(grid);
   SectorScalar scalar{"step", "Pa", 1, std::vector<double>(grid.n_cells(), 0.0)};
-  const double middle = grid.inner_radius + 5 * grid.cell_size()[0];
+  const double middle = grid.radius(5);
   for (int cell = 0; cell < grid.n_cells(); ++cell)
     scalar.values[cell] = grid.cell_position(cell)[0] < 5 ? -2.0 : 2.0;
   const std::string svg = sector_svg(psi, scalar, "title");
-  const double chord = std::pow(grid.cell_size()[1], 2) / 6 + 1e-5;  // cells have straight sides; rounding
+  const double chord = std::pow(grid.column_angle(), 2) / 6 + 1e-5;  // cells have straight sides; rounding
   EXPECT_NEAR(area(svg, blue_to_red(-1)), ring_area(grid.inner_radius, middle), chord * ring_area(0.2, 0.34));
   EXPECT_NEAR(area(svg, blue_to_red(1)), ring_area(middle, grid.outer_radius), chord * ring_area(0.2, 0.34));
   EXPECT_EQ(area(svg, blue_to_red(0)), 0);
@@ -70,14 +70,14 @@ TEST(SectorSvg, PartsOfCellsTakeTheValuesInTheirMiddles) {
     LevelSet<2> radius{lattice, {}};
     for (int node = 0; node < lattice.n_nodes(); ++node)
       radius.values.push_back(grid.inner_radius +
-                              lattice.node_position(node)[0] * grid.cell_size()[0] / degree);
+                              lattice.node_position(node)[0] * grid.row_height(0) / degree);
     for (const int parts : {1, 3}) {
       const auto values = values_in_parts(radius, parts);
       ASSERT_EQ(values.size(), static_cast<size_t>(grid.n_cells() * parts * parts));
       for (size_t k = 0; k < values.size(); ++k) {
         const int cell = static_cast<int>(k) / (parts * parts), part = static_cast<int>(k) % (parts * parts);
         const double cells = grid.cell_position(cell)[0] + (part / parts + 0.5) / parts;
-        EXPECT_NEAR(values[k], grid.inner_radius + cells * grid.cell_size()[0], 1e-14);
+        EXPECT_NEAR(values[k], grid.radius(cells), 1e-14);
       }
     }
   }

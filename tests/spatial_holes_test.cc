@@ -161,7 +161,7 @@ TEST(SpatialHoles, ALinearDisplacementIsInEquilibriumWithItsTraction) {
     double largest = 0;
     for (const auto& cut : domain->cut) {
       const auto nodes = space.cell_nodes(cut.cell);
-      const double azimuth = grid.cell_position(cut.cell)[1] * grid.cell_size()[1];
+      const double azimuth = grid.cell_position(cut.cell)[1] * grid.column_angle();
       for (const auto& q : cut.boundary) {
         const auto at = table.element(grid.cell_position(cut.cell)[0]).at(q.xi);
         const auto surface = map_surface<3>(at.jacobian, q.normal);

@@ -12,18 +12,27 @@ using namespace wheelwright;
 
 namespace {
 
-template <int dim>
-Lattice<dim> lattice_of(int degree) {
-  if constexpr (dim == 2)
-    return {{0.20, 0.34, 0.12, 12, {14, 17}}, degree};
-  else
-    return {{0.20, 0.34, 0.12, 12, {7, 9, 5}}, degree};
-}
+/// Rows of equal height, or of unequal ones.
+template <int dimension, bool are_equal>
+struct Rows {
+  static constexpr int dim = dimension;
 
-template <int dim>
-LevelSet<dim> random_level_set(int degree) {
+  static Lattice<dim> lattice(int degree) {
+    std::vector<FixedLine> lines;
+    if constexpr (dim == 2) {
+      if (!are_equal) lines = {{3, 0.22}, {4, 0.225}, {9, 0.30}, {13, 0.331}};
+      return {{0.20, 0.34, 0.12, 12, {14, 17}, lines}, degree};
+    } else {
+      if (!are_equal) lines = {{2, 0.25}, {3, 0.26}};
+      return {{0.20, 0.34, 0.12, 12, {7, 9, 5}, lines}, degree};
+    }
+  }
+};
+
+template <class Rows>
+LevelSet<Rows::dim> random_level_set(int degree) {
   std::mt19937 random(11);
-  LevelSet<dim> psi{lattice_of<dim>(degree), {}};
+  LevelSet<Rows::dim> psi{Rows::lattice(degree), {}};
   for (int node = 0; node < psi.lattice.n_nodes(); ++node)
     psi.values.push_back(std::normal_distribution<double>()(random));
   return psi;
@@ -36,16 +45,16 @@ bool is_vertex(const Lattice<dim>& lattice, int node) {
   return true;
 }
 
-template <class Dimension>
+template <class Rows>
 class SplineLevelSets : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SplineLevelSets, Dimensions);
+using AllRows = testing::Types<Rows<2, true>, Rows<3, true>, Rows<2, false>, Rows<3, false>>;
+TYPED_TEST_SUITE(SplineLevelSets, AllRows);
 
 }  // namespace
 
 TYPED_TEST(SplineLevelSets, HaveTheValuesOfTheVertices) {
-  constexpr int dim = TypeParam::value;
-  const auto psi = random_level_set<dim>(2);
+  constexpr int dim = TypeParam::dim;
+  const auto psi = random_level_set<TypeParam>(2);
   const auto filtered = spline_level_set(spline_coefficients(psi)), coefficients = spline_coefficients(psi);
   for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
     if (!is_vertex(psi.lattice, node)) continue;
@@ -56,8 +65,8 @@ TYPED_TEST(SplineLevelSets, HaveTheValuesOfTheVertices) {
 }
 
 TYPED_TEST(SplineLevelSets, ReproduceLinesAlongTheRadius) {
-  constexpr int dim = TypeParam::value;
-  LevelSet<dim> psi{lattice_of<dim>(2), {}};
+  constexpr int dim = TypeParam::dim;
+  LevelSet<dim> psi{TypeParam::lattice(2), {}};
   for (int node = 0; node < psi.lattice.n_nodes(); ++node)
     psi.values.push_back(3 - 2 * psi.lattice.polar_point(node)[0]);
   const auto coefficients = spline_coefficients(psi), shape = spline_level_set(psi);
@@ -69,8 +78,8 @@ TYPED_TEST(SplineLevelSets, ReproduceLinesAlongTheRadius) {
 
 /// Coefficients that are clipped give a level set that is: what keeps the bands.
 TYPED_TEST(SplineLevelSets, AreMonotoneInTheirCoefficients) {
-  constexpr int dim = TypeParam::value;
-  const auto c = random_level_set<dim>(2);
+  constexpr int dim = TypeParam::dim;
+  const auto c = random_level_set<TypeParam>(2);
   auto larger = c;
   std::mt19937 random(2);
   for (double& x : larger.values) x += std::exponential_distribution<double>(1)(random);
@@ -79,12 +88,40 @@ TYPED_TEST(SplineLevelSets, AreMonotoneInTheirCoefficients) {
     EXPECT_LE(psi.values[node], above.values[node] + (psi.lattice.node_position(node)[0] == 0 ? 2 : 1e-14));
 }
 
+/// Its slope and curvature are continuous along the radius, also where rows of unequal height meet, and its
+/// derivatives are those of its differences.
+TYPED_TEST(SplineLevelSets, AreSmooth) {
+  constexpr int dim = TypeParam::dim;
+  const PolarGrid<dim> grid = TypeParam::lattice(2).grid();
+  const auto at = [&](int row, double xi, int order) {
+    const auto weights = spline_derivative_weights(grid, 0, row, xi)[order];
+    const auto [first, count] = spline_support(grid, 0, row);
+    double sum = 0;
+    for (int k = 0; k < count; ++k) sum += weights[k] * std::sin(7.0 * (first + k));
+    return sum / std::pow(grid.row_height(row), order);
+  };
+  constexpr double eps = 1e-5;
+  for (int row = 0; row < grid.cells[0]; ++row) {
+    if (row > 0)
+      for (const int order : {0, 1, 2}) {
+        EXPECT_NEAR(at(row, 0, order) * std::pow(0.01, order), at(row - 1, 1, order) * std::pow(0.01, order),
+                    1e-10)
+            << row << " " << order;
+      }
+    for (const int order : {1, 2, 3}) {
+      const double difference =
+          (at(row, 0.3 + eps, order - 1) - at(row, 0.3 - eps, order - 1)) / (2 * eps * grid.row_height(row));
+      EXPECT_NEAR(at(row, 0.3, order) / difference, 1, 1e-5) << row << " " << order;
+    }
+  }
+}
+
 /// The value in a cell, of the polynomial through its nodes, as the weighted sum of the coefficients.
 TYPED_TEST(SplineLevelSets, HaveTheWeightsOfTheirCoefficients) {
-  constexpr int dim = TypeParam::value;
+  constexpr int dim = TypeParam::dim;
   std::mt19937 random(5);
   for (const int degree : {1, 2}) {
-    const auto c = random_level_set<dim>(degree);
+    const auto c = random_level_set<TypeParam>(degree);
     const auto psi = spline_level_set(c);
     const auto& lattice = c.lattice;
     const auto& grid = lattice.grid();
@@ -96,13 +133,21 @@ TYPED_TEST(SplineLevelSets, HaveTheWeightsOfTheirCoefficients) {
       const auto values = psi.cell_values(cell);
       double value = 0, sum = 0;
       for (std::size_t a = 0; a < values.size(); ++a) value += shape.value[a] * values[a];
-      for (int k = 0; k < power(4, dim); ++k) {
+      std::array<SplineSupport, dim> support;
+      int n = 1;
+      for (int d = 0; d < dim; ++d) {
+        support[d] = spline_support(grid, d, position[d]);
+        n *= support[d].count;
+      }
+      for (int k = 0; k < n; ++k) {
         std::array<int, dim> vertex;
         double weight = 1;
         int rest = k;
-        for (int d = 0; d < dim; ++d, rest /= 4) {
-          weight *= spline_weights(degree, position[d], xi[d], grid.cells[d] + 1, d == 1)[rest % 4];
-          vertex[d] = degree * (position[d] + rest % 4 - 1);
+        for (int d = 0; d < dim; ++d) {
+          const int i = rest % support[d].count;
+          rest /= support[d].count;
+          weight *= spline_weights(grid, degree, d, position[d], xi[d])[i];
+          vertex[d] = degree * (support[d].first + i);
         }
         if (weight != 0) sum += weight * c.values[lattice.node_index(vertex)];
       }
@@ -144,4 +189,5 @@ void expect_edges_stay_when_redistanced(const Lattice<dim>& lattice) {
 TEST(SplineLevelSet, KeepsItsEdgesWhenRedistanced) {
   expect_edges_stay_when_redistanced<2>({{0.20, 0.34, 0.12, 12, {28, 32}}, 2});
   expect_edges_stay_when_redistanced<3>({{0.20, 0.34, 0.12, 12, {14, 16, 4}}, 2});
+  expect_edges_stay_when_redistanced<2>({{0.20, 0.34, 0.12, 12, {28, 32}, {{11, 0.262}, {17, 0.280}}}, 2});
 }

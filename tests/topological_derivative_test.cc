@@ -125,7 +125,7 @@ RollingModel<2> lopsided_model(int radial, int angular) {
 
 /// The cell and the point of the unit cell at a place.
 MaterialPoint<2> point_at(const PolarGrid<2>& grid, double radius, double azimuth) {
-  const Vec<2> h = grid.cell_size();
+  const Vec<2> h = grid.cell_size(0);
   const double x = (radius - grid.inner_radius) / h[0], y = azimuth / h[1];
   const std::array<int, 2> cell{static_cast<int>(x), static_cast<int>(y)};
   return {grid.cell_index(cell), {x - cell[0], y - cell[1]}};

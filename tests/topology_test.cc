@@ -110,7 +110,7 @@ TEST(Components, ASlitCutsTheTreadOff) {
 
 // A ligament that runs diagonally through the samples, thinner than a cell, holds; cut, it does not.
 TEST(Components, FollowADiagonalLigament) {
-  const double slope = grid.cell_size()[1] / grid.cell_size()[0];
+  const double slope = grid.column_angle() / grid.row_height(0);
   for (double gap : {-1.0, 0.003}) {
     const auto psi = level_set<2>(grid, 1, [&](const Vec<2>& p) {
       const double slit = 0.05 - std::abs(p[0] - 0.27);
@@ -140,8 +140,8 @@ class OneSaddle : public ::testing::TestWithParam<Saddle> {};
 TEST_P(OneSaddle, IsResolvedByTheValueOfPsi) {
   for (int sign : {-1, 1}) {
     const auto psi = level_set<2>(grid, 1, [&](const Vec<2>& p) {
-      const double outward = (p[0] - grid.inner_radius) / grid.cell_size()[0] - 14.125;
-      const double along = std::remainder(p[1] / grid.cell_size()[1] - GetParam().azimuth, grid.cells[1]);
+      const double outward = (p[0] - grid.inner_radius) / grid.row_height(0) - 14.125;
+      const double along = std::remainder(p[1] / grid.column_angle() - GetParam().azimuth, grid.cells[1]);
       const double at_saddle = 1e-3 + 0.02 * std::max(0.0, std::abs(along) - 0.125);
       const double half_a_sector_away = 0.5 * std::max(0.0, std::abs(along) - 10);
       return sign * (at_saddle - half_a_sector_away) - GetParam().diagonal * outward * along;

@@ -75,7 +75,7 @@ TEST(TreadRefinement, HangingNodesKeepRigidMotionsFreeOfForce) {
     ASSERT_TRUE(column);
     // A translation along the column's first radius: polar components turn with the node. The condensed
     // column knows base and both lines; their azimuths are 0, half and one column angle.
-    const double angle = model.grid.cell_size()[1];
+    const double angle = model.grid.column_angle();
     const int n_line_nodes = column->n_line / 2;
     std::vector<double> u;
     for (int line = 0; line <= 2; ++line) {

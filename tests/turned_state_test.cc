@@ -9,6 +9,7 @@
 #include "wheelwright/mechanics/rolling/ring_state.h"
 #include "wheelwright/mechanics/rolling/width_halves.h"
 #include "wheelwright/shape/geometry/mirror.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 #include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
@@ -173,6 +174,20 @@ void expect_that_turning_changes_nothing() {
 
 TEST(TurnedState, IsTheStateInThePlane) { expect_that_turning_changes_nothing<2>(); }
 TEST(TurnedState, IsTheStateInSpace) { expect_that_turning_changes_nothing<3>(); }
+
+/// Of layers that meet within the hole, between rows of unequal height.
+template <int dim>
+void expect_that_turning_changes_nothing_in_layers() {
+  auto model = wheel<dim>();
+  const auto law = [](double modulus) { return std::make_shared<IsotropicLaw<dim>>(Material{modulus, 0.3}); };
+  model.materials = Materials<dim>(std::vector<typename Materials<dim>::Layer>{
+      {0.2513, law(200e6)}, {0.2711, law(20e6)}, {0, law(200e6)}});
+  model.grid = with_lines_at(model.grid, model.materials.interfaces());
+  EXPECT_EQ(model.grid.fixed_lines.size(), 2u);
+  expect_that_turning_changes_nothing(model, hole_on_the_border(model.grid));
+}
+TEST(TurnedState, OfLayersIsTheStateInThePlane) { expect_that_turning_changes_nothing_in_layers<2>(); }
+TEST(TurnedState, OfLayersIsTheStateInSpace) { expect_that_turning_changes_nothing_in_layers<3>(); }
 
 /// A wheel with mirror planes, one of them in the middle of a hole on the border of the sector.
 template <int dim>

@@ -123,7 +123,7 @@ TEST(Uniformity, PoissonsImageOfAWaveIsThatOfTheRing) {
     Matrix g(2 * static_cast<int>(points.size()), model.grid.ring_columns()), expected = g;
     for (int j = 0; j < g.columns(); ++j)
       for (size_t q = 0; q < points.size(); ++q) {
-        const double column = j * model.grid.cell_size()[1];
+        const double column = j * model.grid.column_angle();
         const auto [x, y] = points[q].position;
         const Vec<2> wave = rotated<2>({std::cos(n * (column + std::atan2(y, x))), 0.0}, -column);
         for (int d = 0; d < 2; ++d) {

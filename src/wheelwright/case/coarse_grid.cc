@@ -6,6 +6,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 
@@ -13,9 +14,6 @@ namespace {
 
 constexpr double coarse_tolerance = 5e-3;
 constexpr int most_tread_levels = 6;
-
-/// The thickness of a band, extended to its full rows of cells.
-double widened(const Band& band, double cell) { return std::max(band.thickness, band.full_rows * cell); }
 
 }  // namespace
 
@@ -29,10 +27,11 @@ Case on_coarser_grid(Case c, int level) {
   if (c.grid.tread_levels)
     c.grid.tread_levels =
         std::min(*c.grid.tread_levels + level, std::max(most_tread_levels, *c.grid.tread_levels));
-  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
   const auto [rim, tread, between] = bands(c);
-  c.optimizer.rim_band = widened(rim, cell);
-  c.optimizer.tread_band = widened(tread, cell);
+  const PolarGrid<2> grid = polar_grid<2>(c);
+  const int rows = grid.cells[0];
+  c.optimizer.rim_band = std::max(rim.thickness, grid.height_of_rows(0, rim.full_rows));
+  c.optimizer.tread_band = std::max(tread.thickness, grid.height_of_rows(rows - tread.full_rows, rows));
   c.optimizer.tolerance = std::max(convergence_tolerance(c), coarse_tolerance);
   c.optimizer.coarse_levels = 0;
   return c;
@@ -46,17 +45,17 @@ bool can_be_halved(const Case& c, int times) {
 
 bool has_room_between_bands(const Case& c, int level) {
   const Case coarse = on_coarser_grid(c, level);
-  const double ring = c.wheel.outer_radius - c.wheel.inner_radius, cell = ring / coarse.grid.radial_cells;
+  const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
   const auto [rim, tread, between] = bands(coarse);
-  return rim.thickness + tread.thickness < ring - cell;
+  return rim.thickness + tread.thickness < ring - largest_row_height(polar_grid<2>(coarse));
 }
 
 int level_with_few_cells(const Case& c, int most_cells) {
-  constexpr int min_rows = 6;
+  const int min_rows = std::max(6, static_cast<int>(radii_of_lines(c).size()) + 1);
   const Grid& grid = c.grid;
   int level = 0;
   while ((grid.radial_cells >> level) * (grid.angular_cells >> level) > most_cells &&
-         grid.radial_cells >> (level + 1) >= min_rows && layers_fit(c, grid.radial_cells >> (level + 1)))
+         grid.radial_cells >> (level + 1) >= min_rows)
     ++level;
   return level;
 }

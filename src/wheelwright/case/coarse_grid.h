@@ -21,8 +21,8 @@ bool can_be_halved(const Case& c, int times);
 /// Whether the bands at rim and tread leave a row of cells between them on the grid of that level.
 bool has_room_between_bands(const Case& c, int level);
 
-/// The lowest level whose grid has at most `most_cells` cells along radius and azimuth, but at least 6 rows,
-/// and on which layers of materials end on lines.
+/// The lowest level whose grid has at most `most_cells` cells along radius and azimuth, but at least 6 rows
+/// and one for each part between layers and cords.
 int level_with_few_cells(const Case& c, int most_cells);
 
 /// The grid as text, e.g. "grid 14 x 192".

@@ -10,6 +10,7 @@
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/load_values.h"
 #include "wheelwright/case/objective_weights.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 
@@ -147,7 +148,7 @@ double tread_cell_width(const Case& c) {
 }
 
 double smallest_hole_in_cells(const Case& c) {
-  const double radial = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells,
+  const double radial = largest_row_height(polar_grid<2>(c)),
                azimuthal = pi * (c.wheel.outer_radius + c.wheel.inner_radius) / c.grid.angular_cells;
   double smallest = smallest_hole_width(c);
   for (const HoleSphere& sphere : c.holes.spheres) smallest = std::min(smallest, 2 * sphere.radius);
@@ -168,9 +169,8 @@ double sector_angle(const Case& c) { return 2 * pi / c.wheel.sectors; }
 int total_load_positions(const Case& c) { return c.wheel.sectors * c.load.positions; }
 
 namespace {
-double radial_cell(const Case& c) {
-  return (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
-}
+/// The height of the row of cells at the tread.
+double tread_row(const Case& c) { return polar_grid<2>(c).row_height(c.grid.radial_cells - 1); }
 }  // namespace
 
 bool minimizes_weighted_sum(const Case& c) { return c.objective.minimize == Quantity(); }
@@ -202,13 +202,13 @@ bool wants_uniformity(const Case& c) {
   return c.objective.annulus_matches_dual.has_value() || optimizes_any(c, &QuantityRow::compares_with_mean);
 }
 
-double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(radial_cell(c)); }
+double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(tread_row(c)); }
 
 double characteristic_length(const Case& c) { return c.objective.length.value_or(annulus_thickness(c)); }
 
 int tread_rows(const Case& c) {
   if (!wants_annulus(c)) return 1;
-  return std::max(1, static_cast<int>(std::lround(annulus_thickness(c) / radial_cell(c))));
+  return std::max(1, static_cast<int>(std::lround(annulus_thickness(c) / tread_row(c))));
 }
 
 template <int dim>
@@ -218,7 +218,8 @@ PolarGrid<dim> polar_grid(const Case& c) {
   grid.cells[0] = c.grid.radial_cells;
   grid.cells[1] = c.grid.angular_cells / c.wheel.sectors;
   if constexpr (dim == 3) grid.cells[2] = c.grid.axial_cells;
-  return grid;
+  const auto radii = radii_of_lines(c);
+  return static_cast<int>(radii.size()) < c.grid.radial_cells ? with_lines_at(std::move(grid), radii) : grid;
 }
 template decltype(polar_grid<2>) polar_grid<2>;
 template decltype(polar_grid<3>) polar_grid<3>;
@@ -345,8 +346,7 @@ double minimum_gamma_0(double theta, const OrthotropicMaterial& material, double
 }
 
 double tread_cell_aspect(const Case& c) {
-  return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells /
-         ((c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells);
+  return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells / tread_row(c);
 }
 
 }  // namespace wheelwright

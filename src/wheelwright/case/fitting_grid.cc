@@ -8,6 +8,7 @@
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 namespace {
@@ -16,28 +17,38 @@ int nearest_multiple(int n, int unit) {
   return unit * std::max(1, static_cast<int>(std::lround(static_cast<double>(n) / unit)));
 }
 
-double row_height(const Case& c) {
-  return (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
-}
-
-bool fits_band(const Case& c, const Band& band) {
-  return band.thickness >= band.full_rows * row_height(c) - 1e-9 * c.wheel.outer_radius;
-}
-
-/// Whether the annulus, if given, is a whole number of rows after that many halvings.
+/// Whether the annulus, if given, is a whole number of rows after that many halvings. With layers or cords,
+/// lines move to it.
 bool fits_annulus(const Case& c, int halvings) {
-  if (!wants_annulus(c) || !c.objective.annulus) return true;
-  const double rows = *c.objective.annulus / row_height(c) / (1 << halvings);
+  if (!wants_annulus(c) || !c.objective.annulus || !radii_of_lines(c).empty()) return true;
+  const double height = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
+  const double rows = *c.objective.annulus / height / (1 << halvings);
   return rows > 0.5 && std::abs(rows - std::round(rows)) < 1e-6;
+}
+
+/// Whether there are enough rows for the lines at given radii, neighbours of which are similarly high, after
+/// that many halvings.
+bool fits_lines(Case c, int halvings) {
+  constexpr double largest_ratio = 2;
+  c.grid.radial_cells >>= halvings;
+  return static_cast<int>(radii_of_lines(c).size()) < c.grid.radial_cells &&
+         largest_row_ratio(polar_grid<2>(c)).ratio <= largest_ratio;
+}
+
+bool fits_bands(const Case& c) {
+  const auto [rim, tread, between] = bands(c);
+  const PolarGrid<2> grid = polar_grid<2>(c);
+  const int rows = grid.cells[0];
+  const double rounding = 1e-9 * c.wheel.outer_radius;
+  return rim.thickness >= grid.height_of_rows(0, rim.full_rows) - rounding &&
+         tread.thickness >= grid.height_of_rows(rows - tread.full_rows, rows) - rounding;
 }
 
 bool has_fitting_rows(const Case& c) {
   const int levels = c.optimizer.coarse_levels;
-  if (c.grid.radial_cells % (1 << levels) != 0 || !fits_annulus(c, levels) ||
-      !layers_fit(c, c.grid.radial_cells >> levels))
+  if (c.grid.radial_cells % (1 << levels) != 0 || !fits_annulus(c, levels) || !fits_lines(c, levels))
     return false;
-  const auto [rim, tread, between] = bands(c);
-  return fits_band(c, rim) && fits_band(c, tread) && (levels == 0 || has_room_between_bands(c, levels));
+  return fits_bands(c) && (levels == 0 || has_room_between_bands(c, levels));
 }
 
 int fitting_rows(Case c) {

@@ -67,17 +67,21 @@ void check_coarse_levels(const Case& c, Conflicts& found) {
     return;
   }
   const Case coarse = on_coarser_grid(c, levels);
-  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / coarse.grid.radial_cells;
+  if (static_cast<int>(radii_of_lines(c).size()) >= coarse.grid.radial_cells) {
+    refuse({key_of(&Grid::radial_cells)},
+           fmt::format(
+               "the coarse grid of {} rows has none for some of the {} parts into which layers and cords "
+               "divide the ring",
+               coarse.grid.radial_cells, radii_of_lines(c).size() + 1),
+           "use fewer coarse_levels");
+    return;
+  }
+  const double cell = polar_grid<2>(coarse).row_height(coarse.grid.radial_cells - 1);
   if (wants_annulus(c) && std::abs(annulus_thickness(c) - tread_rows(coarse) * cell) > 1e-6 * cell)
     refuse({key_of(&Objective::annulus), key_of(&Grid::radial_cells)},
            fmt::format("the annulus of {:.6g} m is not a whole number of coarse cells of {:.6g} m",
                        annulus_thickness(c), cell),
            fmt::format("use fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
-  if (!layers_fit(c, coarse.grid.radial_cells))
-    refuse({table_of<MaterialLayer>(0), key_of(&Grid::radial_cells)},
-           fmt::format("layers of the material end between the lines of the coarse grid of {} rows",
-                       coarse.grid.radial_cells),
-           "use fewer coarse_levels");
   if (!has_room_between_bands(c, levels))
     refuse(with_ring_shape({}), "on the coarse grid the bands at rim and tread leave no room for holes",
            "use fewer coarse_levels, or a finer grid");

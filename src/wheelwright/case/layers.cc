@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/case/derived.h"
 #include "wheelwright/mechanics/elasticity/orthotropic_law.h"
 
 namespace wheelwright {
@@ -177,9 +178,20 @@ Materials<dim> materials(const Case& c) {
   return Materials<dim>(std::move(layers), std::move(cords));
 }
 
-bool layers_fit(const Case& c, int radial_cells) {
-  const PolarGrid<2> grid{c.wheel.inner_radius, c.wheel.outer_radius, c.wheel.width, 1, {radial_cells, 1}};
-  return materials<2>(c).fit(grid);
+std::vector<double> radii_of_lines(const Case& c) {
+  if (c.layers.empty() && c.cords.empty()) return {};
+  std::vector<double> radii;
+  for (const PlacedMaterial& placed : placed_materials(c)) radii.push_back(placed.outer_radius);
+  radii.pop_back();
+  for (const MaterialCord& cord : c.cords) radii.push_back(cord.radius);
+  if (c.objective.annulus && wants_annulus(c)) radii.push_back(c.wheel.outer_radius - *c.objective.annulus);
+  std::ranges::sort(radii);
+  const double least = 1e-9 * c.wheel.outer_radius;
+  const auto is_same = [&](double a, double b) { return b - a < least; };
+  radii.erase(std::unique(radii.begin(), radii.end(), is_same), radii.end());
+  const bool is_inside = radii.empty() || (radii.front() > c.wheel.inner_radius + least &&
+                                           radii.back() < c.wheel.outer_radius - least);
+  return is_inside ? radii : std::vector<double>();
 }
 
 bool has_density(const Case& c, const std::optional<PartOfRing>& part) {

@@ -86,8 +86,10 @@ Quantity minimized_quantity(const Case& c);
 template <int dim>
 Materials<dim> materials(const Case& c);
 
-/// Whether with this many radial cells the layers end on lines of the grid, and cords lie on lines.
-bool layers_fit(const Case& c, int radial_cells);
+/// The radii [m] at which lines of the grid must lie, outwards: those where materials meet and those of
+/// cords. If there are any, also that of the inner edge of the annulus, if it is given. Empty if they do not
+/// lie in the ring.
+std::vector<double> radii_of_lines(const Case& c);
 
 /// Whether the density of every material of the ring is known, or that of a part's.
 bool has_density(const Case& c, const std::optional<PartOfRing>& part = {});

@@ -161,19 +161,15 @@ bool check_places(const Case& c, Conflicts& found) {
   return found.size() == before;
 }
 
-/// The numbers of radial cells nearest to that of the case with which the layers fit; empty if there is none
-/// up to four times as many.
-std::string fitting_cells(const Case& c) {
-  const int usual = c.grid.radial_cells;
-  std::string text;
-  for (int cells = usual - 1; cells >= std::max(2, usual / 2); --cells)
-    if (layers_fit(c, cells)) {
-      text = fmt::format("{} or ", cells);
-      break;
-    }
-  for (int cells = usual + 1; cells <= 4 * usual; ++cells)
-    if (layers_fit(c, cells)) return text + fmt::format("{}", cells);
-  return text.empty() ? text : text.substr(0, text.size() - 4);
+/// What lies between two radii of layers or cords needs a row.
+void check_rows(const Case& c, Conflicts& found) {
+  const int least = static_cast<int>(radii_of_lines(c).size()) + 1;
+  if (c.grid.radial_cells >= least) return;
+  CaseKeys keys{key_of(&Grid::radial_cells)};
+  if (!c.layers.empty()) keys.push_back(table_of<MaterialLayer>(0));
+  if (!c.cords.empty()) keys.push_back(table_of<MaterialCord>(0));
+  found.push_back({std::move(keys), fmt::format("layers and cords divide the ring into {} parts", least),
+                   fmt::format("use at least {} rows", least)});
 }
 
 /// A stiff layer moves almost as a rigid body between soft ones: in its equations the forces of its
@@ -228,58 +224,26 @@ void check_named_layers(const Case& c, Conflicts& found) {
   check_all(c.expectations);
 }
 
-/// Layers must end on lines of the grid.
-void check_lines(const Case& c, Conflicts& found) {
-  if (layers_fit(c, c.grid.radial_cells)) return;
-  const double ring = c.wheel.outer_radius - c.wheel.inner_radius, row = ring / c.grid.radial_cells;
-  const auto misfit = [&](double radius) {
-    const double rows = (radius - c.wheel.inner_radius) / row;
-    return std::abs(rows - std::round(rows)) >= 1e-6;
-  };
-  for (std::size_t i = 0; i < c.layers.size(); ++i) {
-    const auto [inner, outer] = radii(c, c.layers[i]);
-    if (!misfit(inner) && !misfit(outer)) continue;
-    const double radius = misfit(inner) ? inner : outer;
-    const double nearest = c.wheel.inner_radius + std::round((radius - c.wheel.inner_radius) / row) * row;
-    const std::string cells = fitting_cells(c);
-    found.push_back(
-        {{key_of(misfit(inner) ? &MaterialLayer::inner_radius : &MaterialLayer::outer_radius, i),
-          key_of(&Grid::radial_cells)},
-         fmt::format("{:.6g} m lies between two lines of the grid, whose {} rows are {:.4g} mm high", radius,
-                     c.grid.radial_cells, 1e3 * row),
-         fmt::format("use {}{:.6g} m, the nearest line",
-                     cells.empty() ? "" : fmt::format("grid.radial_cells = {}, or ", cells), nearest)});
-  }
-}
-
-/// Cords lie on lines of the grid, in material without holes, below the condensed rows at the tread.
+/// Cords lie in material without holes, below the condensed rows at the tread.
 void check_cords(const Case& c, Conflicts& found) {
-  const double rim = c.wheel.inner_radius, tread = c.wheel.outer_radius,
-               row = (tread - rim) / c.grid.radial_cells, rounding = 1e-6 * row;
+  const PolarGrid<2> grid = polar_grid<2>(c);
+  const double rim = c.wheel.inner_radius, tread = c.wheel.outer_radius, rounding = 1e-9 * tread;
+  const int highest = grid.cells[0] - tread_rows(c);
   const Bands solid = bands(c);
   std::vector<SolidAnnulus> annuli = solid.between;
   annuli.push_back({rim, rim + solid.rim.thickness});
   annuli.push_back({tread - solid.tread.thickness, tread});
   for (std::size_t i = 0; i < c.cords.size(); ++i) {
     const double radius = c.cords[i].radius;
-    const CaseKeys keys{key_of(&MaterialCord::radius, i), key_of(&Grid::radial_cells),
-                        key_of(&Wheel::inner_radius), key_of(&Wheel::outer_radius)};
-    const double line = (radius - rim) / row, nearest = rim + std::round(line) * row;
-    const double highest = tread - tread_rows(c) * row;
-    if (std::abs(line - std::round(line)) >= 1e-6) {
-      const std::string cells = fitting_cells(c);
+    const int line = grid.nearest_line(radius).line;
+    if (radius <= rim + rounding || line > highest) {
       found.push_back(
-          {keys,
-           fmt::format("{:.6g} m lies between two lines of the grid, whose {} rows are {:.4g} mm high",
-                       radius, c.grid.radial_cells, 1e3 * row),
-           fmt::format("use {}{:.6g} m, the nearest line",
-                       cells.empty() ? "" : fmt::format("grid.radial_cells = {}, or ", cells), nearest)});
-    } else if (radius < rim + row - rounding || radius > highest + rounding) {
-      found.push_back({keys,
-                       "cords lie between the rim and the rows of cells at the tread, which are condensed",
-                       fmt::format("use {:.6g} m to {:.6g} m", rim + row, highest)});
+          {{key_of(&MaterialCord::radius, i), key_of(&Grid::radial_cells), key_of(&Wheel::inner_radius),
+            key_of(&Wheel::outer_radius)},
+           "cords lie between the rim and the rows of cells at the tread, which are condensed",
+           fmt::format("use more than {:.6g} m and less than {:.6g} m", rim, grid.radius(highest))});
     } else if (std::ranges::none_of(annuli, [&](const SolidAnnulus& annulus) {
-                 return radius - row > annulus.inner - rounding && radius < annulus.outer + rounding;
+                 return grid.radius(line - 1) > annulus.inner - rounding && radius < annulus.outer + rounding;
                })) {
       found.push_back(
           {{key_of(&MaterialCord::radius, i), key_of(&Optimizer::rim_band), key_of(&Optimizer::tread_band),
@@ -320,7 +284,7 @@ void material_conflicts(const Case& c, Conflicts& found) {
     else if (check_constants(c, placed.layer, found))
       check_locking(c, placed, found);
   }
-  check_lines(c, found);
+  check_rows(c, found);
   check_cords(c, found);
   check_material_of_annulus(c, found);
   check_named_layers(c, found);

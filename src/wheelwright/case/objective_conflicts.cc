@@ -17,7 +17,7 @@ namespace {
 
 void check_annulus(const Case& c, Conflicts& found) {
   if (!wants_annulus(c)) return;
-  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
+  const double cell = polar_grid<2>(c).row_height(c.grid.radial_cells - 1);
   if (std::abs(annulus_thickness(c) - tread_rows(c) * cell) < 1e-6 * cell) return;
   found.push_back({{key_of(&Objective::annulus), key_of(&Grid::radial_cells)},
                    fmt::format("must be a whole number of radial cells of {:.6g} m", cell),

@@ -11,11 +11,10 @@ namespace wheelwright {
 
 namespace {
 
-/// A band covers the rows of cells that must be full.
-void check_band(const Case& c, const Band& band, std::string_view place, const CaseKey& key, bool is_given,
-                Conflicts& found) {
-  const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
-  const double least = band.full_rows * ring / c.grid.radial_cells, advised = rounded_up(least);
+/// A band covers the rows of cells that must be full, of which `least` is the height [m].
+void check_band(const Case& c, const Band& band, double least, std::string_view place, const CaseKey& key,
+                bool is_given, Conflicts& found) {
+  const double advised = rounded_up(least);
   if (band.thickness >= least - 1e-9 * c.wheel.outer_radius) return;
   const auto rows =
       band.full_rows == 1 ? std::string("one radial cell") : fmt::format("{} radial cells", band.full_rows);
@@ -24,7 +23,7 @@ void check_band(const Case& c, const Band& band, std::string_view place, const C
                      "thinner than " + rows,
                      fmt::format("use at least {:.6g} m, or more grid.radial_cells", advised)});
   } else {
-    const double finer = std::ceil(band.full_rows * ring / band.thickness - 1e-9);
+    const double finer = std::ceil(c.grid.radial_cells * least / band.thickness - 1e-9);
     found.push_back(
         {{key_of(&Grid::radial_cells), key, key_of(&Objective::annulus)},
          fmt::format("{} {} thicker than the band at the {} that remains material, by default {:.6g} m", rows,
@@ -52,8 +51,12 @@ void wheel_conflicts(const Case& c, Conflicts& found) {
     return;
   }
   const auto [rim, tread, between] = bands(c);
-  check_band(c, rim, "rim", key_of(&Optimizer::rim_band), c.optimizer.rim_band.has_value(), found);
-  check_band(c, tread, "tread", key_of(&Optimizer::tread_band), c.optimizer.tread_band.has_value(), found);
+  const PolarGrid<2> grid = polar_grid<2>(c);
+  const int rows = grid.cells[0];
+  check_band(c, rim, grid.height_of_rows(0, rim.full_rows), "rim", key_of(&Optimizer::rim_band),
+             c.optimizer.rim_band.has_value(), found);
+  check_band(c, tread, grid.height_of_rows(rows - tread.full_rows, rows), "tread",
+             key_of(&Optimizer::tread_band), c.optimizer.tread_band.has_value(), found);
   if (rim.thickness + tread.thickness >= w.outer_radius - w.inner_radius) {
     found.push_back(
         {with_ring_shape({key_of(&Optimizer::rim_band), key_of(&Optimizer::tread_band),

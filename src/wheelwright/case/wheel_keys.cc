@@ -159,9 +159,9 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
       .meaning =
           "a ring of another material between two radii, bonded to what lies inside and outside of it: "
           "linear elasticity, isotropic or orthotropic, in the plane of [material], which is the material of "
-          "what lies in no layer; layers do not overlap, and their radii lie on lines of the grid, of which "
-          "there are "
-          "grid.radial_cells + 1 at equal distances",
+          "what lies in no layer; layers do not overlap; rows of the grid end at their radii, and are "
+          "equally "
+          "high in between",
       .in = [](Case& c) -> std::vector<MaterialLayer>& { return c.layers; },
       .example = example_of_a_layer(),
       .keys = with_orthotropic_keys<MaterialLayer>(
@@ -198,9 +198,8 @@ const SectionArray<MaterialCord>& material_cord_sections() {
       .name = "cord",
       .meaning =
           "thin cords side by side along a circle, such as a belt: they resist strain along the azimuth "
-          "alone, and have no mass. The circle is a line of the grid, of which there are "
-          "grid.radial_cells + 1 at equal distances, and lies in material that has no holes: a layer "
-          "with holes = \"none\", or a band at rim or tread",
+          "alone, and have no mass. A line of the grid moves to the circle, which lies in material that has "
+          "no holes: a layer with holes = \"none\", or a band at rim or tread",
       .in = [](Case& c) -> std::vector<MaterialCord>& { return c.cords; },
       .example = {.radius = 0.335, .stiffness = 2e6},
       .keys = {length_key<MaterialCord>(&MaterialCord::radius, "radius", "radius of the circle"),

@@ -10,10 +10,43 @@ constexpr std::string_view tag = "LSET";
 /// Far more than any grid has, but few enough that numbers of nodes do not overflow 64 bits in 3D.
 constexpr int max_cells = 1'000'000;
 
+/// In place of the number of radial cells, which follows, 0 and the fixed lines.
+void append(const std::vector<FixedLine>& lines, ByteWriter& writer) {
+  writer.integer(0);
+  writer.integer(static_cast<int>(lines.size()));
+  for (const auto& [line, radius] : lines) {
+    writer.integer(line);
+    writer.number(radius);
+  }
+}
+
+std::vector<FixedLine> read_fixed_lines(ByteReader& reader) {
+  std::vector<FixedLine> lines;
+  const std::size_t n = reader.count(2 * sizeof(double));
+  for (std::size_t k = 0; k < n && reader.ok(); ++k) {
+    const int line = static_cast<int>(reader.integer(1, max_cells, "a fixed line of the grid"));
+    lines.push_back({line, reader.finite_number("a radius of the grid")});
+  }
+  if (lines.empty()) reader.fail("the grid has no radial cells");
+  return lines;
+}
+
+/// Whether the fixed lines and their radii increase from the rim to the tread.
+template <int dim>
+bool are_in_order(const PolarGrid<dim>& grid) {
+  FixedLine last{0, grid.inner_radius};
+  for (const FixedLine& fixed : grid.fixed_lines) {
+    if (fixed.line <= last.line || !(fixed.radius > last.radius)) return false;
+    last = fixed;
+  }
+  return last.line < grid.cells[0] && last.radius < grid.outer_radius;
+}
+
 template <int dim>
 void append(const PolarGrid<dim>& grid, ByteWriter& writer) {
   for (const double length : {grid.inner_radius, grid.outer_radius, grid.width}) writer.number(length);
   writer.integer(grid.n_sectors);
+  if (!grid.fixed_lines.empty()) append(grid.fixed_lines, writer);
   for (const int cells : grid.cells) writer.integer(cells);
 }
 
@@ -25,8 +58,16 @@ PolarGrid<dim> read_grid(ByteReader& reader) {
   if (!(0 < grid.inner_radius && grid.inner_radius < grid.outer_radius && grid.width > 0))
     reader.fail("the grid's radii or width do not form a ring");
   grid.n_sectors = static_cast<int>(reader.integer(1, max_cells, "the number of sectors"));
-  for (int& cells : grid.cells)
-    cells = static_cast<int>(reader.integer(1, max_cells, "a number of cells of the grid"));
+  const auto read_cells = [&](int least) {
+    return static_cast<int>(reader.integer(least, max_cells, "a number of cells of the grid"));
+  };
+  grid.cells[0] = read_cells(0);
+  if (grid.cells[0] == 0) {
+    grid.fixed_lines = read_fixed_lines(reader);
+    grid.cells[0] = read_cells(1);
+  }
+  for (int d = 1; d < dim; ++d) grid.cells[d] = read_cells(1);
+  if (!are_in_order(grid)) reader.fail("the fixed lines of the grid are not in order");
   return grid;
 }
 

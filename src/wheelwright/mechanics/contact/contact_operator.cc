@@ -162,7 +162,7 @@ class Flexibility {
 template <int dim>
 ContactPoints<dim> contact_points(const Tread<dim>& tread, const PolarGrid<dim>& grid, GroundPosition ground,
                                   ContactZone zone, const Ground& shape) {
-  const double column_angle = grid.cell_size()[1];
+  const double column_angle = grid.column_angle();
   const double height = undeformed_height(grid, ground.camber) + shape.standing(grid.outer_radius).rise;
   const bool has_gaps = tread.form().counterpart == Counterpart::ground;
   ContactPoints<dim> at{zone, shape, tread.n_columns(), ground.column + ground.offset - zone.first_column,

@@ -166,7 +166,7 @@ template <int dim>
 ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
                                     const MaterialLaw<dim>& law, DilatationKind dilatation)
     : degree_(degree), has_polar_strains_(law.has_polar_axes()), map_(grid, degree, cell) {
-  const double spacing = grid.cell_size()[1] / degree;
+  const double spacing = grid.column_angle() / degree;
   for (int a = 0; a < n_nodes(); ++a) {
     const double angle = local_node_position<dim>(degree, a)[1] * spacing;
     frames_[a] = {};
@@ -186,7 +186,7 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
   for (const auto& a : corners)
     for (const auto& b : corners)
       plane_diameter_ = std::max(plane_diameter_, norm<2>({a[0] - b[0], a[1] - b[1]}));
-  if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
+  if constexpr (dim == 3) axial_length_ = grid.axial_size();
   const Material* material = law.isotropic();
   if (material && degree == 2) projected_lambda_ = projected_part_of_lambda(dilatation, *material);
   if (projects_dilatation()) {

@@ -28,12 +28,6 @@ class Materials {
     double stiffness;  ///< E A per width along the axle [N/m]
   };
 
-  /// Cords side by side along a circle, as thick as a line.
-  struct Cord {
-    double radius;     ///< [m]
-    double stiffness;  ///< E A per width along the axle [N/m]
-  };
-
   Materials() : Materials(Material()) {}
 
   /// The same material everywhere.
@@ -89,7 +83,7 @@ class Materials {
   bool fit(const PolarGrid<dim>& grid) const {
     const auto is_line = [&](double radius) {
       const auto [line, distance] = grid.nearest_line(radius);
-      return line > 0 && line < grid.cells[0] && std::abs(distance) < 1e-6 * grid.cell_size()[0];
+      return line > 0 && line < grid.cells[0] && std::abs(distance) < 1e-6 * grid.row_height(line);
     };
     return std::all_of(layers_.begin(), layers_.end() - 1,
                        [&](const Layer& layer) { return is_line(layer.outer_radius); }) &&

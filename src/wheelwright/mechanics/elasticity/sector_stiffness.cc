@@ -47,7 +47,7 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
     cords_.push_back(cords > 0 ? wheelwright::cord_stiffness<dim>(elements_.back(), cords) : Matrix());
     add(cords_.back(), stiffness_.back());
   }
-  const double column_angle = grid.cell_size()[1];
+  const double column_angle = grid.column_angle();
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
     const auto compressible = compressible_law<dim>(law(radial));
     const MaterialLaw<dim>& ghost_law = compressible ? *compressible : law(radial);

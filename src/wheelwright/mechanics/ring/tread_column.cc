@@ -36,10 +36,10 @@ template <int dim>
 class ColumnNodes {
  public:
   ColumnNodes(const PolarGrid<dim>& grid, int degree, const TreadGrid& tread)
-      : degree_(degree), column_angle_(grid.cell_size()[1]), rows_(tread.rows) {
+      : degree_(degree), column_angle_(grid.column_angle()), rows_(tread.rows) {
     if constexpr (dim == 3) axial_nodes_ = degree * grid.cells[2] + 1;
-    const double row = grid.cell_size()[0];
-    layers_ = layers(grid.outer_radius - tread.rows * row, grid.outer_radius, tread);
+    const double height = grid.height_of_rows(grid.cells[0] - tread.rows, grid.cells[0]);
+    layers_ = layers(grid.outer_radius - height, grid.outer_radius, tread);
     // Free lines upward: the base, then every line of every layer except its lowest, which is the top line of
     // the layer below.
     intervals_.push_back(degree);
@@ -270,7 +270,7 @@ class ColumnAssembly {
              n_cells * static_cast<int>(annulus_rule_.size()), tread.observes_spin};
     column_.stiffness = Matrix(nodes.n_dofs(), nodes.n_dofs());
     column_.observation = Matrix(rows_.size(), nodes.n_dofs());
-    column_.surface.annulus_thickness = tread.rows * grid_.cell_size()[0];
+    column_.surface.annulus_thickness = grid_.height_of_rows(grid_.cells[0] - tread.rows, grid_.cells[0]);
     column_.surface.n_columns = grid_.ring_columns();
     column_.surface.has_spin = tread.observes_spin;
     column_.nodal = grid_nodes<dim>(nodes, degree_, tread.rows, axial_cells_);
@@ -295,6 +295,7 @@ class ColumnAssembly {
     fine.inner_radius = layer.inner_radius;
     fine.outer_radius = layer.outer_radius;
     fine.cells[0] = layer.rows;
+    fine.fixed_lines.clear();
     fine.cells[1] <<= layer.level;
     const MaterialLaw<dim>& law = materials_.in_row(fine, row);
     const ElasticElement<dim> element(fine, degree_, {row}, law, table_.dilatation());
@@ -306,7 +307,7 @@ class ColumnAssembly {
         ColumnCell<dim> cell{.element = element,
                              .law = law,
                              .nodes = cell_nodes(layer_index, row, across, axial),
-                             .angle = across * fine.cell_size()[1],
+                             .angle = across * fine.column_angle(),
                              .to_image = (1 << layer.level) - 1 - 2 * across,
                              .axial = axial,
                              .stiffness = stiffness};
@@ -333,7 +334,7 @@ class ColumnAssembly {
       if (next_across == 1 << nodes_.all_layers()[layer].level) continue;
       if (next_axial == axial_cells_ && !at_middle) continue;
       const Matrix jump = traction_jump_stiffness<dim>(
-          cell.element, cell.element, axis, axis == 1 ? fine.cell_size()[1] : 0.0, cell.law, weight);
+          cell.element, cell.element, axis, axis == 1 ? fine.column_angle() : 0.0, cell.law, weight);
       auto nodes = cell.nodes;
       if (at_middle) {
         add_stiffness<dim>(half_of_symmetric_pair(jump, degree_), nodes, column_.stiffness);
@@ -414,7 +415,7 @@ class ColumnAssembly {
         for (int i = 0; i < cell.element.n_dofs(); ++i)
           for (int d = 0; d < dim; ++d) cell.stiffness(i, j) += nitsche * traction[d][i] * traction[d][j];
       Vec<dim> position = rotated<dim>(at.position, cell.angle);
-      if constexpr (dim == 3) position[2] += cell.axial * grid_.cell_size()[2];
+      if constexpr (dim == 3) position[2] += cell.axial * grid_.axial_size();
       column_.surface.points.push_back({position, weight, gamma});
     }
   }

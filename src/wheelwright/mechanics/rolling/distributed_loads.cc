@@ -73,7 +73,7 @@ SectorIntegrals<dim> sector_integrals(const CutDomain<dim>& domain, const Elemen
   const SectorSpace<dim>& space = ring.sector().space;
   SectorIntegrals<dim> sector{Matrix(dim + (rotates ? 2 : 1), ring.sector_factor().size())};
   const auto add_cell = [&](int cell, const CellIntegrals<dim>& integrals) {
-    const double angle = grid.cell_position(cell)[1] * grid.cell_size()[1];
+    const double angle = grid.cell_position(cell)[1] * grid.column_angle();
     const auto nodes = space.cell_nodes(cell);
     for (int k = 0; k < dim; ++k) {
       Vec<dim> axis{};
@@ -107,7 +107,7 @@ SectorIntegrals<dim> sector_integrals(const CutDomain<dim>& domain, const Elemen
       Vec<dim> force = surface.normal;
       for (double& x : force) x *= -q.weight * surface.scale;
       add_load<dim>(ring, nodes, at.displacement, force, dim, sector.loads);
-      const double angle = position[1] * grid.cell_size()[1];
+      const double angle = position[1] * grid.column_angle();
       sector.pressure_force = sum(sector.pressure_force, resultant<dim>(rotated<dim>(force, angle),
                                                                         rotated<dim>(at.position, angle)));
     }
@@ -164,7 +164,7 @@ AppliedLoads applied_loads(const DistributedLoads<dim>& loads, const CutDomain<d
           sum(on_the_rim, scaled(loads.hole_pressure, turned<dim>(sector.pressure_force, -to_sector)));
     }
     for (int c = 0; c < n_columns; ++c) {
-      const double to_column = ground - c * grid.cell_size()[1];
+      const double to_column = ground - c * grid.column_angle();
       const Vec<dim> force = rotated<dim>(loads.body_force, to_column);
       for (int d = 0; d < dim; ++d)
         applied.tread(tread.observation_rows().integral() + d, i * n_columns + c) = force[d];

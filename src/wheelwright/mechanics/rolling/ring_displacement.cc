@@ -71,7 +71,7 @@ RingField RingDisplacement<dim>::at_nodes(int position) const {
   const int nodes_per_azimuth = lattice_.n_nodes() / lattice_.nodes()[1];
   for (int sector = 0; sector < grid.n_sectors; ++sector)
     for (int line = 0; line < lattice_.nodes()[1]; ++line) {
-      const double azimuth = sector * grid.sector_angle() + line * lattice_.spacing()[1];
+      const double azimuth = sector * grid.sector_angle() + line * lattice_.node_angle();
       const AxleRotation from_polar(azimuth), from_ground(azimuth - ground.azimuth(grid));
       for (int k = 0; k < nodes_per_azimuth; ++k) {
         const int node = line * nodes_per_azimuth + k;

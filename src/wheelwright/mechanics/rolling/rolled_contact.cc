@@ -34,7 +34,7 @@ int columns_in_contact(const RollingModel<dim>& model, bool between_columns) {
                                    (std::numbers::pi * model.materials.at_tread().contact_modulus()));
   const double to_middle = grid.outer_radius * std::abs(model.ground.standing(grid.outer_radius).tilt);
   const double width = std::min(margin * half_width + to_middle, grid.outer_radius * std::numbers::pi);
-  return static_cast<int>(std::ceil(width / (grid.outer_radius * grid.cell_size()[1]))) + 1 + between_columns;
+  return static_cast<int>(std::ceil(width / (grid.outer_radius * grid.column_angle()))) + 1 + between_columns;
 }
 
 /// Columns from the ground position to one beyond the last at which a rigid tread whose rim moves so would

@@ -34,12 +34,15 @@ int components_in_contact(const RollingModel<dim>& model) {
   return is_in_plane ? std::min(2, dim) : dim;
 }
 
-/// Why the materials of a model are not those of a linear ring.
+/// Why the materials of a model, or its rows, are not those of a linear ring.
 template <int dim>
 std::optional<Failure> unsupported_material(const RollingModel<dim>& model) {
   if (!model.materials.fit(model.grid))
     return Failure{FailureReason::unsupported_model, "layers of materials end between the lines of the grid"};
   const int rows = model.grid.cells[0];
+  if (model.grid.equal_rows(rows - 1).first > rows - model.tread.rows)
+    return Failure{FailureReason::unsupported_model,
+                   "the rows that are condensed at the tread differ in height"};
   for (int row = rows - model.tread.rows; row + 1 < rows; ++row)
     if (model.materials.is_interface(model.grid, row))
       return Failure{FailureReason::unsupported_model,

@@ -111,7 +111,7 @@ class Densities {
   std::vector<std::vector<double>> in_cell(const CellBoundary<dim>& boundary) const {
     const PolarGrid<dim>& grid = problem_.model().grid;
     const auto place = grid.cell_position(boundary.cell);
-    const double angle = place[1] * grid.cell_size()[1];
+    const double angle = place[1] * grid.column_angle();
     const auto& element = problem_.elements().element(place[0]);
     const MaterialLaw<dim>& law = problem_.elements().law(place[0]);
     const auto nodes = s_.ring.sector().space.cell_nodes(boundary.cell);
@@ -273,7 +273,7 @@ std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>& proble
       for (const auto& q : rule) {
         const auto surface =
             map_surface<dim>(map.jacobian(ShapeFunctions<dim>(problem.model().degree, q.xi)), q.normal);
-        points.push_back({cell, q.xi, rotated<dim>(surface.normal, place[1] * grid.cell_size()[1]),
+        points.push_back({cell, q.xi, rotated<dim>(surface.normal, place[1] * grid.column_angle()),
                           q.weight * surface.scale});
       }
     }
@@ -295,7 +295,7 @@ std::vector<SurfacePoint<dim>> edge_points(const RollingProblem<dim>& problem,
         const Mat<dim> jacobian = map.jacobian(ShapeFunctions<dim>(degree, q.xi));
         points.push_back(
             {of_cell.cell, q.xi,
-             rotated<dim>(map_surface<dim>(jacobian, q.normal).normal, place[1] * grid.cell_size()[1]),
+             rotated<dim>(map_surface<dim>(jacobian, q.normal).normal, place[1] * grid.column_angle()),
              q.weight * edge_stretch(jacobian, q.normal)});
       }
     }

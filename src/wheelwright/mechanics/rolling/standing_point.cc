@@ -15,7 +15,7 @@ StandingPoint<dim> standing_point(const Tread<dim>& tread, const PolarGrid<dim>&
   StandingPoint<dim> lowest{};
   double at_rest = infinity, rotating = infinity;  // heights of the lowest points above the ground
   for (int column = 0; column < tread.n_columns(); ++column) {
-    GroundFrame frame{(column - ground.column - ground.offset) * grid.cell_size()[1], 0};
+    GroundFrame frame{(column - ground.column - ground.offset) * grid.column_angle(), 0};
     for (int q = 0; q < static_cast<int>(tread.points().size()); ++q) {
       Vec<dim> u;
       std::copy_n(observed.column(column) + rows.displacement(q), dim, u.begin());

@@ -51,7 +51,7 @@ class Derivatives {
     std::vector<double> derivatives;
     for (size_t f = 0; f < functions_.size(); ++f) {
       gather(s_.ring, nodes, adjoints_[f].modes, p);
-      double sum = -loads_[f].density(at, law, place[1] * grid.cell_size()[1], p);
+      double sum = -loads_[f].density(at, law, place[1] * grid.column_angle(), p);
       const Matrix weighted = energies_[f].empty() ? Matrix(u.rows(), u.columns()) : energies_[f].of_modes(u);
       const Matrix strain_p = strains_of<dim>(p, at), strain_w = strains_of<dim>(weighted, at);
       for (int mode = 0; mode < u.rows(); ++mode) {

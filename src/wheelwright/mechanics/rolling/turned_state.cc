@@ -31,7 +31,7 @@ class TurnedDisplacement : public Displacement<dim> {
   RingField at_nodes(int position) const override {
     const RingField there = turned_.displacement().at_nodes(position);
     const int by = lattice_.degree() * columns_;
-    const AxleRotation forward(columns_ * lattice_.grid().cell_size()[1]);
+    const AxleRotation forward(columns_ * lattice_.grid().column_angle());
     RingField here = there;
     for (int line = 0; line < lattice_.grid().n_sectors * lattice_.nodes()[1]; ++line) {
       const double* from = &there.values[dim * ring_line(lattice_, line - by)];
@@ -108,7 +108,7 @@ class TurnedState : public State<dim> {
       const PolarGrid<dim>& grid = domain_->grid;
       const double all_round = grid.n_sectors * grid.sector_angle();
       for (auto& place : peaks_.von_mises_places) {
-        place[1] += columns_ * grid.cell_size()[1];
+        place[1] += columns_ * grid.column_angle();
         if (place[1] >= all_round) place[1] -= all_round;
       }
     });
@@ -166,7 +166,7 @@ class TurnedState : public State<dim> {
       const int before = place[1];
       place[1] = wrap(before + columns_, grid.columns());
       point.cell = grid.cell_index(place);
-      point.normal = rotated<dim>(point.normal, (place[1] - before) * grid.cell_size()[1]);
+      point.normal = rotated<dim>(point.normal, (place[1] - before) * grid.column_angle());
     }
     return points;
   }

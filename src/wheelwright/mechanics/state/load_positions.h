@@ -18,7 +18,7 @@ struct GroundPosition {
   /// Azimuth of n_y [rad].
   template <int dim>
   double azimuth(const PolarGrid<dim>& grid) const {
-    return (column + offset) * grid.cell_size()[1];
+    return (column + offset) * grid.column_angle();
   }
 };
 

@@ -58,11 +58,7 @@ Matrix strains_by_component(const Matrix& strains) {
 
 template <int dim>
 Vec<dim> place_in_body(const PolarGrid<dim>& grid, int cell, const Vec<dim>& xi, int sector) {
-  const auto position = grid.cell_position(cell);
-  const Vec<dim> size = grid.cell_size();
-  Vec<dim> place;
-  for (int d = 0; d < dim; ++d) place[d] = (position[d] + xi[d]) * size[d];
-  place[0] += grid.inner_radius;
+  Vec<dim> place = grid.polar_point(grid.cell_position(cell), xi);
   place[1] += sector * grid.sector_angle();
   return place;
 }

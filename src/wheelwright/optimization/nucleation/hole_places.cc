@@ -47,17 +47,15 @@ bool are_mirror_symmetric(const PolarGrid<2>& grid, const std::vector<double>& o
 
 /// The mean of the costs of the cells whose centres lie in the hole; NaN if one of them is unknown.
 double mean_cost(const PolarGrid<2>& grid, const std::vector<double>& of_cells, const Circle& hole) {
-  const Vec<2> h = grid.cell_size();
-  const int columns = grid.columns(), rows = grid.cells[0];
-  const int first_row = static_cast<int>((hole.centre_radius - hole.hole_radius - grid.inner_radius) / h[0]),
-            last_row = static_cast<int>((hole.centre_radius + hole.hole_radius - grid.inner_radius) / h[0]);
+  const int columns = grid.columns(), first_row = grid.row_at(hole.centre_radius - hole.hole_radius),
+            last_row = grid.row_at(hole.centre_radius + hole.hole_radius);
   const double reach = hole.hole_radius / (hole.centre_radius - hole.hole_radius);
-  const int first_column = static_cast<int>(std::floor((hole.centre_azimuth - reach) / h[1])),
-            last_column = static_cast<int>(std::floor((hole.centre_azimuth + reach) / h[1]));
+  const int first_column = static_cast<int>(std::floor((hole.centre_azimuth - reach) / grid.column_angle())),
+            last_column = static_cast<int>(std::floor((hole.centre_azimuth + reach) / grid.column_angle()));
   double sum = 0, area = 0;
-  for (int row = std::max(first_row, 0); row <= std::min(last_row, rows - 1); ++row)
+  for (int row = first_row; row <= last_row; ++row)
     for (int column = first_column; column <= last_column; ++column) {
-      const Vec<2> middle{grid.inner_radius + (row + 0.5) * h[0], (column + 0.5) * h[1]};
+      const Vec<2> middle{grid.middle_of_row(row), (column + 0.5) * grid.column_angle()};
       if (signed_distance<2>(grid, std::span(&hole, 1), middle) < 0) continue;
       const int cell = grid.cell_index({row, ((column % columns) + columns) % columns});
       sum += middle[0] * of_cells[cell];

@@ -167,7 +167,7 @@ Vec<dim> position_of(const RollingModel<dim>& model, const MaterialPoint<dim>& p
   const auto place = model.grid.cell_position(point.cell);
   const CellMap<dim> map(model.grid, model.degree, place);
   return rotated<dim>(map.position(ShapeFunctions<dim>(model.degree, point.xi)),
-                      place[1] * model.grid.cell_size()[1]);
+                      place[1] * model.grid.column_angle());
 }
 
 /// The functions' derivatives with respect to the states of every load case, as far as they depend on them.

@@ -11,6 +11,7 @@ LevelSet<dim> in_millimetres(const LevelSet<dim>& shape) {
   PolarGrid<dim> grid = shape.lattice.grid();
   for (double* length : {&grid.inner_radius, &grid.outer_radius, &grid.width})
     *length *= millimetres_per_metre;
+  for (FixedLine& fixed : grid.fixed_lines) fixed.radius *= millimetres_per_metre;
   LevelSet<dim> psi{Lattice<dim>(grid, shape.lattice.degree()), shape.values};
   for (double& value : psi.values) value *= millimetres_per_metre;
   return psi;

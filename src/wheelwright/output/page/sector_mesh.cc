@@ -57,7 +57,7 @@ class SectorMeshBuilder {
     const auto place = grid().cell_position(cell);
     const CellMap<2> map(grid(), psi_.lattice.degree(), place);
     return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)),
-                      place[1] * grid().cell_size()[1]);
+                      place[1] * grid().column_angle());
   }
   /// Points of different layers are not merged: fields jump between them.
   std::array<long, 3> key(const Vec<2>& x, int row) const {

@@ -45,7 +45,7 @@ std::vector<double> press_of_tread(const Lattice<2>& lattice, const RingField& d
   for (int column = 0; column < grid.ring_columns(); ++column)
     for (int k = 0; k < press_samples; ++k) {
       const double xi = double(k) / press_samples;
-      const double azimuth = (column + xi) * grid.cell_size()[1] - contact_azimuth;
+      const double azimuth = (column + xi) * grid.column_angle() - contact_azimuth;
       const Vec<2> u = interpolated(displacement, lattice, {grid.cells[0] - 1, column},
                                     shape_values(lattice.degree(), {1, xi}));
       const double down = std::cos(contact_azimuth) * u[0] + std::sin(contact_azimuth) * u[1];
@@ -113,8 +113,7 @@ Vec<2> DeformedMaterial::moved(const Vec<2>& x, double radius, double azimuth, c
 Vec<2> DeformedMaterial::drawn(const Vec<2>& x) const {
   const PolarGrid<2>& grid = lattice_.grid();
   const double radius = std::hypot(x[0], x[1]), azimuth = std::atan2(x[1], x[0]);
-  const double row = (radius - grid.inner_radius) / grid.cell_size()[0],
-               column = azimuth / grid.cell_size()[1];
+  const double row = grid.line_at(radius), column = azimuth / grid.column_angle();
   const std::array<int, 2> cell{std::clamp(static_cast<int>(row), 0, grid.cells[0] - 1),
                                 static_cast<int>(std::floor(column))};
   const Vec<2> xi{std::clamp(row - cell[0], 0.0, 1.0), column - cell[1]};
@@ -129,7 +128,7 @@ DeformedMaterial::CellPieces DeformedMaterial::cell_pieces(int cell,
   const auto c = grid.cell_position(cell);
   const CellMap<2> map(grid, psi_.lattice.degree(), c);
   const auto position = [&](const Vec<2>& xi) {
-    return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)), c[1] * grid.cell_size()[1]);
+    return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)), c[1] * grid.column_angle());
   };
   CellPieces pieces{cell, position({0.5, 0.5}), {}, {}};
   std::map<Vec<2>, int> numbers;

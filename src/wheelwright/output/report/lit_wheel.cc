@@ -32,7 +32,7 @@ class Press {
     const double azimuth = picture.contact_azimuth, radius = grid_.outer_radius;
     const double level = radius + picture.ground.standing(radius).rise;
     for (int line = 0; line < lines_; ++line) {
-      const double from_contact = line * lattice.spacing()[1] - azimuth;
+      const double from_contact = line * lattice.node_angle() - azimuth;
       for (int axial = 0; axial < axial_nodes_; ++axial) {
         const double* u =
             &picture.displacement.values[3 * ring_node<3>(lattice, {lattice.nodes()[0] - 1, line, axial})];

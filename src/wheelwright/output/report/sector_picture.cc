@@ -20,7 +20,7 @@ PicturePolygon SectorPicture::polygon(int cell, const MaterialPolygon& corners) 
   PicturePolygon result;
   for (const Vec<2>& xi : corners)
     result.push_back(
-        point(rotated<2>(map.position(ShapeFunctions<2>(degree_, xi)), c[1] * grid_.cell_size()[1])));
+        point(rotated<2>(map.position(ShapeFunctions<2>(degree_, xi)), c[1] * grid_.column_angle())));
   return result;
 }
 
@@ -28,7 +28,7 @@ std::string SectorPicture::grid_lines() const {
   std::string path;
   const double angle = grid_.sector_angle();
   for (int i = 0; i <= grid_.cells[0]; ++i) {
-    const double radius = grid_.inner_radius + i * grid_.cell_size()[0];
+    const double radius = grid_.radius(i);
     for (int half = 0; half <= 2; ++half) {  // two arcs, because an SVG arc cannot be a full circle
       const PicturePoint p = point(cartesian<2>({radius, 0.5 * half * angle}));
       path += half == 0 ? fmt::format("M{} {}", p[0], p[1])
@@ -36,7 +36,7 @@ std::string SectorPicture::grid_lines() const {
     }
   }
   for (int j = 0; j < grid_.columns(); ++j) {
-    const double azimuth = j * grid_.cell_size()[1];
+    const double azimuth = j * grid_.column_angle();
     const PicturePoint from = point(cartesian<2>({grid_.inner_radius, azimuth})),
                        to = point(cartesian<2>({grid_.outer_radius, azimuth}));
     path += fmt::format("M{} {}L{} {}", from[0], from[1], to[0], to[1]);

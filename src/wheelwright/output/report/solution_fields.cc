@@ -76,7 +76,7 @@ std::vector<double> polar_values(const Lattice<dim>& lattice, const RingField& f
   for (int line = 0; line < per_sector * lattice.grid().n_sectors; ++line) {
     const int sector = line / per_sector;
     const double azimuth =
-        (line % per_sector) * lattice.spacing()[1] + sector * lattice.grid().sector_angle();
+        (line % per_sector) * lattice.node_angle() + sector * lattice.grid().sector_angle();
     const double cosine = std::cos(azimuth), sine = std::sin(azimuth);
     double* u = &polar[dim * ring_node<dim>(lattice, {0, line})];
     for (int node = 0; node < per_line; ++node, u += dim) {
@@ -201,7 +201,7 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
   NodalMeans<components> means(polar.size() / dim), odd_means(is_odd_row.empty() ? 0 : polar.size() / dim);
   std::vector<Direction> of_column;
   for (int column = 0; column < grid.ring_columns(); ++column) {
-    const double azimuth = column * grid.cell_size()[1];
+    const double azimuth = column * grid.column_angle();
     of_column.push_back({std::cos(azimuth), std::sin(azimuth)});
   }
   for (int row = 0; row < grid.cells[0]; ++row) {

@@ -29,7 +29,7 @@ TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<di
   const TreadSurface<dim>& surface = solver.tread_surface();
   const PolarGrid<dim>& grid = solver.model().grid;
   const double ground = state.positions().grounds[position].azimuth(grid),
-               turn = column * grid.cell_size()[1] - ground;
+               turn = column * grid.column_angle() - ground;
   Vec<dim> u;
   std::copy_n(
       state.observations().column(position * surface.n_columns + column) + surface.rows().displacement(point),

@@ -91,7 +91,7 @@ class PlaneCells {
                                                           static_cast<std::int32_t>(cells_.points.size()));
         if (is_new) {
           const Vec<2> x = map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi));
-          cells_.points.push_back(rotated<2>(x, c[1] * grid.cell_size()[1]));
+          cells_.points.push_back(rotated<2>(x, c[1] * grid.column_angle()));
           cells_.psi.push_back(value_at<2>(psi_, nodal, xi));
           field_points_.add(c, xi);
         }

@@ -27,10 +27,9 @@ struct EdgePoint {
 
 EdgePoint edge_point(const Vec<2>& x, const Lattice<2>& lattice) {
   const PolarGrid<2>& grid = lattice.grid();
-  const Vec<2> size = grid.cell_size();
   const double azimuth = std::atan2(x[1], x[0]),
                turn = azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth;
-  const double along[2] = {(norm<2>(x) - grid.inner_radius) / size[0], turn / size[1]};
+  const double along[2] = {grid.line_at(norm<2>(x)), turn / grid.column_angle()};
   const int cells[2] = {grid.cells[0], grid.ring_columns()};
   std::array<int, 2> cell;
   Vec<2> xi;

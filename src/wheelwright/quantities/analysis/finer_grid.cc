@@ -13,35 +13,39 @@ int more_cells(int cells) {
   return dim == 2 ? 2 * cells : (4 * cells + 2) / 3;
 }
 
-/// Whether the condensed rows, where tractions are observed in them, stay as thick as they are with this many
-/// radial cells, and layers of materials end on lines of the grid.
-template <int dim>
-bool keeps_lines(const RollingModel<dim>& model, int radial_cells) {
-  PolarGrid<dim> finer = model.grid;
-  finer.cells[0] = radial_cells;
-  return (model.tread.annulus_points == 0 || model.tread.rows * radial_cells % model.grid.cells[0] == 0) &&
-         model.materials.fit(finer);
-}
-
 }  // namespace
 
 template <int dim>
 RollingModel<dim> on_finer_grid(RollingModel<dim> model) {
   const std::array<int, dim> before = model.grid.cells;
-  int radial_cells = more_cells<dim>(before[0]);
-  while (!keeps_lines(model, radial_cells)) ++radial_cells;
+  const auto equal_rows = model.grid.all_equal_rows();
   auto& cells = model.grid.cells;
-  cells[0] = radial_cells;
+  int line = 0;  // the last fixed one
+  for (std::size_t k = 0; k + 1 < equal_rows.size(); ++k)
+    model.grid.fixed_lines[k].line = line += more_cells<dim>(equal_rows[k].count());
+  const int rows_before = equal_rows.back().count();
+  int rows = more_cells<dim>(rows_before);
+  // Whether the condensed rows, where tractions are observed in them, stay as thick as they are, and layers
+  // of materials end on lines of the grid.
+  const auto keeps_lines = [&] {
+    cells[0] = line + rows;
+    return (model.tread.annulus_points == 0 || model.tread.rows * rows % rows_before == 0) &&
+           model.materials.fit(model.grid);
+  };
+  while (!keeps_lines()) ++rows;
   for (int d = 1; d < dim; ++d) cells[d] = more_cells<dim>(before[d]);
   if constexpr (dim == 3)
     if (before[2] % 2 == 0) cells[2] += cells[2] % 2;
-  model.tread.rows = std::max(1, model.tread.rows * cells[0] / before[0]);
+  model.tread.rows = std::max(1, model.tread.rows * rows / rows_before);
   return model;
 }
 
 template <int dim>
 double refinement(const PolarGrid<dim>& grid, const PolarGrid<dim>& finer) {
+  const auto coarse_rows = grid.all_equal_rows(), fine_rows = finer.all_equal_rows();
   double minimum = finer.cells[0] / static_cast<double>(grid.cells[0]);
+  for (std::size_t k = 0; k < coarse_rows.size(); ++k)
+    minimum = std::min(minimum, fine_rows[k].count() / static_cast<double>(coarse_rows[k].count()));
   for (int d = 1; d < dim; ++d)
     minimum = std::min(minimum, finer.cells[d] / static_cast<double>(grid.cells[d]));
   return minimum;

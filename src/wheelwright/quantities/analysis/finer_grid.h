@@ -9,12 +9,13 @@ namespace wheelwright {
 /// axis in 2D, and in 3D, where that would cost too much, with 4/3 as many, rounded up. An even number of
 /// cells along the axle stays even. Loads, load positions, the number of halvings at the tread and, where
 /// tractions are observed in its condensed rows, their thickness stay the same, and layers end on lines of
-/// the grid: with twice as many radial cells all that holds. The layers of the model must end on lines of its
-/// grid.
+/// the grid: with twice as many radial cells all that holds. Between fixed lines rows multiply by themselves.
+/// The layers of the model must end on lines of its grid.
 template <int dim>
 RollingModel<dim> on_finer_grid(RollingModel<dim> model);
 
-/// The factor by which the cells of the finer grid are smaller, in the direction in which it is smallest.
+/// The factor by which the cells of a grid of on_finer_grid() are smaller, where and in the direction in
+/// which it is smallest.
 template <int dim>
 double refinement(const PolarGrid<dim>& grid, const PolarGrid<dim>& finer);
 

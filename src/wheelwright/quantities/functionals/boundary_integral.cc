@@ -15,7 +15,7 @@ FunctionalValue<dim> BoundaryIntegral<dim>::evaluate(const StateSolver<dim>& sol
     const auto place = grid.cell_position(point.cell);
     const CellMap<dim> map(grid, degree, place);
     const Vec<dim> x =
-        rotated<dim>(map.position(ShapeFunctions<dim>(degree, point.xi)), place[1] * grid.cell_size()[1]);
+        rotated<dim>(map.position(ShapeFunctions<dim>(degree, point.xi)), place[1] * grid.column_angle());
     const auto [n, gradient] = density(x);
     value.of_shape += point.weight * n;
     value.gradient_of_shape.push_back(mean_curvature<dim>(psi, degree, point.cell, point.xi) * n +

@@ -67,9 +67,7 @@ FunctionalValue<dim> PeakVonMises<dim>::evaluate(const StateSolver<dim>& solver,
 
 template <int dim>
 bool row_is_inside(const PolarGrid<dim>& grid, int row, double from_tread) {
-  const double height = grid.cell_size()[0];
-  const double outer = grid.inner_radius + (row + 1) * height;
-  return outer <= grid.outer_radius - from_tread + 1e-9 * height;
+  return grid.radius(row + 1) <= grid.outer_radius - from_tread + 1e-9 * grid.row_height(row);
 }
 
 template class VonMisesPower<2>;

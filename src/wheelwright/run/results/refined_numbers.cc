@@ -78,9 +78,9 @@ bool are_accurate(const std::vector<AccurateNumber>& numbers, double accuracy) {
 template <int dim>
 std::string place_of_stress(const DescribedWheel<dim>& wheel) {
   const PolarGrid<dim>& grid = wheel.grid;
-  const double radius = wheel.loaded->summary.von_mises.place[0], cell = grid.cell_size()[0];
-  if (radius < grid.inner_radius + cell) return "at the rim";
-  if (radius > grid.outer_radius - cell) return "at the tread";
+  const double radius = wheel.loaded->summary.von_mises.place[0];
+  if (radius < grid.radius(1)) return "at the rim";
+  if (radius > grid.radius(grid.cells[0] - 1)) return "at the tread";
   return fmt::format("inside the ring, at radius {:.1f} mm", 1e3 * radius);
 }
 

@@ -1,6 +1,7 @@
 #include "wheelwright/run/study/case_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,7 @@
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/geometry/annulus.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 
@@ -103,9 +105,19 @@ std::string drawing_report(const Case& c) {
   return report;
 }
 
+/// The heights of the rows, if they differ.
+std::string rows_report(const Case& c) {
+  const PolarGrid<2> grid = polar_grid<2>(c);
+  if (grid.fixed_lines.empty()) return "";
+  std::vector<std::string> parts;
+  for (const EqualRows& rows : grid.all_equal_rows())
+    parts.push_back(fmt::format("{} of {:.4g} mm", rows.count(), 1e3 * rows.height()));
+  return line("rows", fmt::format("{}, from the rim to the tread", fmt::join(parts, ", ")));
+}
+
 std::string size_report(const Case& c) {
   const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
-  return drawing_report(c) +
+  return drawing_report(c) + rows_report(c) +
          line("sector", fmt::format("1 of {}, {:.6g} deg, {} x {}{} cells", c.wheel.sectors,
                                     sector_angle(c) * 180 / std::numbers::pi, c.grid.radial_cells,
                                     c.grid.angular_cells / c.wheel.sectors, along_axle)) +
@@ -183,6 +195,27 @@ std::vector<std::string> holes_in_solid_layers(const Case& c) {
   return result;
 }
 
+/// Rows beside others that are several times as high. Names the layer that ends or begins there, and the
+/// number of rows nearest to the case's with which they are not.
+std::vector<std::string> unequal_rows(const Case& c) {
+  constexpr double most = 3;
+  const auto [ratio, radius] = largest_row_ratio(polar_grid<2>(c));
+  if (ratio <= most) return {};
+  std::string name = c.cords.empty() ? "the annulus" : "cords", remedy;
+  for (std::size_t i = 0; i < c.layers.size(); ++i)
+    if (const auto [inner, outer] = radii(c, c.layers[i]);
+        std::min(std::abs(inner - radius), std::abs(outer - radius)) < 2e-9 * c.wheel.outer_radius)
+      name = name_of_layer(c, i);
+  Case finer = c;
+  const int usual = c.grid.radial_cells, step = 1 << c.optimizer.coarse_levels;
+  while (remedy.empty() && (finer.grid.radial_cells += step) <= 8 * usual)
+    if (largest_row_ratio(polar_grid<2>(finer)).ratio <= most)
+      remedy = fmt::format("; with grid.radial_cells = {} it is at most {:g} times as high",
+                           finer.grid.radial_cells, most);
+  return {fmt::format("at {}, radius {:.6g} m, a row of cells is {:.2g} times as high as the next one{}",
+                      name, radius, ratio, remedy)};
+}
+
 std::string bounds_report(const Case& c) {
   std::string report;
   for (const Constraint& bound : c.constraints) {
@@ -252,6 +285,7 @@ std::vector<std::string> warnings(const Case& c) {
   if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never)
     result.push_back("there are no holes, so no boundary can move");
   std::ranges::copy(holes_in_solid_layers(c), std::back_inserter(result));
+  std::ranges::copy(unequal_rows(c), std::back_inserter(result));
   if (const double cells = smallest_hole_in_cells(c);
       cells < least_cells_per_hole && c.optimizer.smoothing == 0)
     result.push_back(

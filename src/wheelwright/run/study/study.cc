@@ -19,6 +19,7 @@
 #include "wheelwright/shape/evolution/regrid.h"
 #include "wheelwright/shape/evolution/volume.h"
 #include "wheelwright/shape/geometry/components.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 #include "wheelwright/shape/geometry/section.h"
 #include "wheelwright/shape/geometry/values_on.h"
 
@@ -253,9 +254,7 @@ std::string text(const VolumeChange& change) {
 
 template <int dim>
 std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
-  PolarGrid<dim> fine = polar_grid<dim>(c);
-  for (int& cells : fine.cells) cells *= component_samples;
-  const Lattice<dim> samples(fine, 1);
+  const Lattice<dim> samples(divided(polar_grid<dim>(c), component_samples), 1);
   const auto sampled = [](const auto& shape, const auto& nodes) { return values_on(shape, nodes); };
   const SavedLevelSet* saved = saved_shape(c);
   auto given = saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c);

@@ -53,11 +53,9 @@ void for_each_neighbour(const PolarGrid<dim>& grid, int cell, Visit visit) {
 
 template <int dim>
 std::string place(const PolarGrid<dim>& grid, int cell) {
-  const auto p = grid.cell_position(cell);
-  Vec<dim> centre;
-  for (int d = 0; d < dim; ++d) centre[d] = (p[d] + 0.5) * grid.cell_size()[d];
-  centre[0] += grid.inner_radius;
-  return place_text<dim>(centre);
+  Vec<dim> middle;
+  middle.fill(0.5);
+  return place_text<dim>(grid.polar_point(grid.cell_position(cell), middle));
 }
 
 template <int dim>

@@ -75,7 +75,7 @@ std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
     for (const auto& point : split->boundary) {
       const auto surface =
           map_surface<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi)), point.normal);
-      samples.push_back({{cell, point.xi, rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
+      samples.push_back({{cell, point.xi, rotated<dim>(surface.normal, position[1] * grid.column_angle()),
                           point.weight * surface.scale},
                          1});
     }

@@ -33,10 +33,14 @@ Vec<dim> gradient_at(const LevelSet<dim>& psi, int node) {
     const bool is_periodic = axis == 1;
     if (is_periodic || position[axis] > 0) --before[axis];
     if (is_periodic || position[axis] + 1 < lattice.nodes()[axis]) ++after[axis];
-    const double distance =
-        (after[axis] - before[axis]) * lattice.spacing()[axis] * (is_periodic ? radius : 1);
-    gradient[axis] =
-        (psi.values[lattice.node_index(after)] - psi.values[lattice.node_index(before)]) / distance;
+    const double rise = psi.values[lattice.node_index(after)] - psi.values[lattice.node_index(before)],
+                 below = lattice.spacing(lattice.row_of(before[0]))[axis];
+    gradient[axis] = rise / ((after[axis] - before[axis]) * below * (is_periodic ? radius : 1));
+    const double above = lattice.spacing(lattice.row_of(position[0]))[axis];
+    if (below == above) continue;
+    // Rows of unequal height meet: the parabola through the three values.
+    const double first_rise = psi.values[node] - psi.values[lattice.node_index(before)];
+    gradient[axis] = (first_rise * above / below + (rise - first_rise) * below / above) / (below + above);
   }
   return gradient;
 }

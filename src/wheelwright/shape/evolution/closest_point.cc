@@ -11,11 +11,6 @@ constexpr int max_newton_steps = 10;
 constexpr double tolerance = 1e-5;
 
 template <int dim>
-double radius_at(const Lattice<dim>& lattice, const Vec<dim>& point) {
-  return lattice.grid().inner_radius + point[0] * lattice.spacing()[0];
-}
-
-template <int dim>
 double shortest_spacing(const Lattice<dim>& lattice) {
   return lattice.grid().resolution() / lattice.degree();
 }
@@ -23,25 +18,23 @@ double shortest_spacing(const Lattice<dim>& lattice) {
 /// The vector from a to b in the orthonormal polar frame at a.
 template <int dim>
 Vec<dim> difference(const Lattice<dim>& lattice, const Vec<dim>& a, const Vec<dim>& b) {
-  const Vec<dim> spacing = lattice.spacing();
-  const double angle = (b[1] - a[1]) * spacing[1], radius = radius_at<dim>(lattice, b);
+  const double angle = (b[1] - a[1]) * lattice.node_angle(), radius = lattice.radius(b[0]);
   const double half_sine = std::sin(angle / 2);
   Vec<dim> result;
-  result[0] = (b[0] - a[0]) * spacing[0] - 2 * radius * half_sine * half_sine;
+  result[0] = lattice.radial_distance(a[0], b[0]) - 2 * radius * half_sine * half_sine;
   result[1] = radius * std::sin(angle);
-  if constexpr (dim == 3) result[2] = (b[2] - a[2]) * spacing[2];
+  if constexpr (dim == 3) result[2] = (b[2] - a[2]) * (lattice.grid().axial_size() / lattice.degree());
   return result;
 }
 
 /// The point a + step, with the step given in the orthonormal polar frame at a.
 template <int dim>
 Vec<dim> moved(const Lattice<dim>& lattice, const Vec<dim>& a, const Vec<dim>& step) {
-  const Vec<dim> spacing = lattice.spacing();
-  const double along = radius_at<dim>(lattice, a) + step[0];
+  const double along = lattice.radius(a[0]) + step[0];
   Vec<dim> result;
-  result[0] = (std::hypot(along, step[1]) - lattice.grid().inner_radius) / spacing[0];
-  result[1] = a[1] + std::atan2(step[1], along) / spacing[1];
-  if constexpr (dim == 3) result[2] = a[2] + step[2] / spacing[2];
+  result[0] = lattice.place_at(std::hypot(along, step[1]));
+  result[1] = a[1] + std::atan2(step[1], along) / lattice.node_angle();
+  if constexpr (dim == 3) result[2] = a[2] + step[2] / (lattice.grid().axial_size() / lattice.degree());
   return result;
 }
 

@@ -3,6 +3,28 @@
 #include "wheelwright/shape/evolution/lattice_strides.h"
 
 namespace wheelwright {
+namespace {
+
+/// Sets Lagrange's polynomials of n nodes, and their first and second derivatives, at a point: `from(b)` is
+/// its distance from node b, inverse(a, b) the inverse of the distance of node a from node b.
+template <class Derivatives, class From, class Inverse>
+void set_lagrange(int n, Derivatives& derivatives, From from, Inverse inverse) {
+  for (int a = 0; a < n; ++a) {
+    double value = 1, derivative = 0, second = 0;
+    for (int b = 0; b < n; ++b) {
+      if (b == a) continue;
+      const double slope = inverse(a, b), factor = from(b) * slope;
+      second = second * factor + 2 * derivative * slope;
+      derivative = derivative * factor + value * slope;
+      value *= factor;
+    }
+    derivatives[0][a] = value;
+    derivatives[1][a] = derivative;
+    derivatives[2][a] = second;
+  }
+}
+
+}  // namespace
 
 template <int dim>
 CubicInterpolant<dim>::CubicInterpolant(const LevelSet<dim>& psi)
@@ -18,23 +40,22 @@ typename CubicInterpolant<dim>::AxisBasis CubicInterpolant<dim>::axis_basis(int 
   const int n = n_points_[axis], n_nodes = lattice().nodes()[axis];
   int first = static_cast<int>(std::floor(coordinate)) - (n - 1) / 2;
   if (axis != 1) first = std::clamp(first, 0, n_nodes - n);
-  const double t = coordinate - first;
   AxisBasis basis{};
   int node = axis == 1 ? (first % n_nodes + n_nodes) % n_nodes : first;
   for (int a = 0; a < n; ++a, ++node) {
     if (axis == 1 && node == n_nodes) node = 0;
     basis.offset[a] = node * strides_[axis];
-    double value = 1, derivative = 0, second = 0;
-    for (int b = 0; b < n; ++b) {
-      if (b == a) continue;
-      const double slope = inverse[a - b + 3], factor = (t - b) * slope;
-      second = second * factor + 2 * derivative * slope;
-      derivative = derivative * factor + value * slope;
-      value *= factor;
-    }
-    basis.derivative[0][a] = value;
-    basis.derivative[1][a] = derivative;
-    basis.derivative[2][a] = second;
+  }
+  if (axis == 0 && !lattice().grid().fixed_lines.empty()) {
+    const double spacing = lattice().spacing(lattice().row_of(coordinate))[0];
+    set_lagrange(
+        n, basis.derivative,
+        [&](int b) { return lattice().radial_distance(first + b, coordinate) / spacing; },
+        [&](int a, int b) { return spacing / lattice().radial_distance(first + b, first + a); });
+  } else {
+    const double t = coordinate - first;
+    set_lagrange(
+        n, basis.derivative, [&](int b) { return t - b; }, [&](int a, int b) { return inverse[a - b + 3]; });
   }
   return basis;
 }
@@ -87,13 +108,13 @@ Jet<dim> CubicInterpolant<dim>::operator()(const Vec<dim>& point) const {
         }
       }
     }
-  const Vec<dim> spacing = lattice().spacing();
+  const Vec<dim> spacing = lattice().spacing(lattice().row_of(point[0]));
   PolarPartials<dim> partials{.value = value};
   for (int i = 0; i < dim; ++i) {
     partials.first[i] = first[i] / spacing[i];
     for (int j = 0; j <= i; ++j) partials.second[i][j] = second[i][j] / (spacing[i] * spacing[j]);
   }
-  return jet(partials, lattice().grid().inner_radius + point[0] * spacing[0]);
+  return jet(partials, lattice().radius(point[0]));
 }
 
 template class CubicInterpolant<2>;

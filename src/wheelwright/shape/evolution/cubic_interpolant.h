@@ -9,7 +9,8 @@
 namespace wheelwright {
 
 /// Piecewise tensor-product cubic through the nodal values of a level set, in polar coordinates: on each
-/// element of the lattice it is the Lagrange polynomial of the four nearest nodes along each axis. It is
+/// element of the lattice it is the Lagrange polynomial of the four nearest nodes along each axis, of unequal
+/// distances where rows of unequal height meet. It is
 /// continuous and of fourth order for both degrees of the level set. It refers to the level set, which must
 /// outlive it.
 template <int dim>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "wheelwright/linalg/dense.h"
 
@@ -11,21 +12,30 @@ namespace {
 /// Lines per cell along each axis.
 constexpr int fineness = 4;
 
-/// A cell of the spline: the surrounding coefficients, first axis fastest, and their nodes. Those beyond the
-/// ends of a nonperiodic axis have weight zero.
+/// A cell of the spline: the coefficients on which it depends, first axis fastest, and their nodes. Those
+/// beyond the ends of a nonperiodic axis have weight zero.
 template <int dim>
 struct SplineCell {
-  static constexpr int n = power(4, dim);
-  std::array<double, n> coefficient;
-  std::array<int, n> node;
+  static constexpr int most = SplineSupport::most * power(4, dim - 1);
+  std::array<SplineSupport, dim> support;
+  int n = 1;
+  std::array<double, most> coefficient;
+  std::array<int, most> node;
+  std::array<std::array<int, dim>, most> place;  ///< in the support along each axis
 
   SplineCell(const LevelSet<dim>& coefficients, const std::array<int, dim>& cell) {
     const Lattice<dim>& lattice = coefficients.lattice;
+    for (int d = 0; d < dim; ++d) {
+      support[d] = spline_support(lattice.grid(), d, cell[d]);
+      n *= support[d].count;
+    }
     for (int k = 0; k < n; ++k) {
       std::array<int, dim> vertex;
       int rest = k;
-      for (int d = 0; d < dim; ++d, rest /= 4) {
-        int position = cell[d] + rest % 4 - 1;
+      for (int d = 0; d < dim; ++d) {
+        place[k][d] = rest % support[d].count;
+        rest /= support[d].count;
+        int position = support[d].first + place[k][d];
         if (d != 1) position = std::clamp(position, 0, lattice.grid().cells[d]);
         vertex[d] = lattice.degree() * position;
       }
@@ -36,41 +46,35 @@ struct SplineCell {
 
   /// The spline lies between its coefficients; those beyond the ends continue a straight line.
   bool may_be_cut() const {
-    const auto [minimum, largest] = std::ranges::minmax(coefficient);
+    const auto [minimum, largest] = std::ranges::minmax(std::span(coefficient).first(n));
     return minimum < 0 && largest >= 0;
   }
 };
 
-/// Weights of the coefficients around a cell for the derivatives along each axis.
+/// Weights of the coefficients of a cell for the derivatives along each axis.
 template <int dim>
-using Weights = std::array<std::array<std::array<double, 4>, 4>, dim>;
-
-template <int dim>
-std::array<std::array<double, 4>, 4> axis_weights(const PolarGrid<dim>& grid,
-                                                  const std::array<int, dim>& cell, int axis, double xi) {
-  return spline_derivative_weights(cell[axis], xi, grid.cells[axis] + 1, axis == 1);
-}
+using Weights = std::array<std::array<SplineWeights, 4>, dim>;
 
 template <int dim>
 Weights<dim> weights_at(const PolarGrid<dim>& grid, const std::array<int, dim>& cell, const Vec<dim>& xi) {
   Weights<dim> result;
-  for (int d = 0; d < dim; ++d) result[d] = axis_weights<dim>(grid, cell, d, xi[d]);
+  for (int d = 0; d < dim; ++d) result[d] = spline_derivative_weights(grid, d, cell[d], xi[d]);
   return result;
 }
 
 /// The weight of one of the coefficients in a derivative of these orders along the axes.
 template <int dim>
-double weight_of(const Weights<dim>& weights, const std::array<int, dim>& order, int k) {
+double weight_of(const SplineCell<dim>& spline, const Weights<dim>& weights,
+                 const std::array<int, dim>& order, int k) {
   double product = 1;
-  for (int d = 0; d < dim; ++d, k /= 4) product *= weights[d][order[d]][k % 4];
+  for (int d = 0; d < dim; ++d) product *= weights[d][order[d]][spline.place[k][d]];
   return product;
 }
 
-/// Value and partial derivatives of the function given by derivative(order), differentiated once more along
-/// `more` if that is an axis.
+/// Value and partial derivatives of the function given by derivative(order) in the unit cell of a cell of
+/// this size, differentiated once more along `more` if that is an axis.
 template <int dim, class Derivative>
-PolarPartials<dim> partials_of(const PolarGrid<dim>& grid, int more, Derivative derivative) {
-  const Vec<dim> size = grid.cell_size();
+PolarPartials<dim> partials_of(const Vec<dim>& size, int more, Derivative derivative) {
   std::array<int, dim> base{};
   double unit = 1;
   if (more >= 0) {
@@ -93,20 +97,23 @@ PolarPartials<dim> partials_of(const PolarGrid<dim>& grid, int more, Derivative 
 
 /// The derivatives of the holes' function -psi.
 template <int dim>
-PolarPartials<dim> partials_at(const PolarGrid<dim>& grid, const SplineCell<dim>& spline,
+PolarPartials<dim> partials_at(const Vec<dim>& size, const SplineCell<dim>& spline,
                                const Weights<dim>& weights, int more = -1) {
-  return partials_of<dim>(grid, more, [&](const std::array<int, dim>& order) {
+  return partials_of<dim>(size, more, [&](const std::array<int, dim>& order) {
     double sum = 0;
-    for (int k = 0; k < spline.n; ++k) sum -= weight_of<dim>(weights, order, k) * spline.coefficient[k];
+    for (int k = 0; k < spline.n; ++k)
+      sum -= weight_of<dim>(spline, weights, order, k) * spline.coefficient[k];
     return sum;
   });
 }
 
 /// Their derivatives with respect to one of the coefficients.
 template <int dim>
-PolarPartials<dim> partials_by(const PolarGrid<dim>& grid, const Weights<dim>& weights, int k) {
-  return partials_of<dim>(
-      grid, -1, [&](const std::array<int, dim>& order) { return -weight_of<dim>(weights, order, k); });
+PolarPartials<dim> partials_by(const Vec<dim>& size, const SplineCell<dim>& spline,
+                               const Weights<dim>& weights, int k) {
+  return partials_of<dim>(size, -1, [&](const std::array<int, dim>& order) {
+    return -weight_of<dim>(spline, weights, order, k);
+  });
 }
 
 /// The rate of the curvature if the jet changes at this rate.
@@ -120,30 +127,26 @@ double rate(const PrincipalCurvature<dim>& curvature, const Jet<dim>& change) {
   return sum;
 }
 
-/// The spline along a line parallel to an axis, given by its four coefficients.
+/// The spline along a line parallel to an axis, given by its coefficients.
 struct SplineLine {
-  std::array<double, 4> coefficient;
+  int count;
+  std::array<double, SplineSupport::most> coefficient = {};
 
-  double operator()(const std::array<double, 4>& weight) const {
+  double operator()(const SplineWeights& weight) const {
     double sum = 0;
-    for (int k = 0; k < 4; ++k) sum += weight[k] * coefficient[k];
+    for (int k = 0; k < count; ++k) sum += weight[k] * coefficient[k];
     return sum;
   }
 };
 
 template <int dim>
 SplineLine line_of(const SplineCell<dim>& spline, const Weights<dim>& weights, int axis) {
-  SplineLine line{};
+  SplineLine line{spline.support[axis].count};
   for (int k = 0; k < spline.n; ++k) {
     double weight = 1;
-    int rest = k, along = 0;
-    for (int d = 0; d < dim; ++d, rest /= 4) {
-      if (d == axis)
-        along = rest % 4;
-      else
-        weight *= weights[d][0][rest % 4];
-    }
-    line.coefficient[along] += weight * spline.coefficient[k];
+    for (int d = 0; d < dim; ++d)
+      if (d != axis) weight *= weights[d][0][spline.place[k][d]];
+    line.coefficient[spline.place[k][axis]] += weight * spline.coefficient[k];
   }
   return line;
 }
@@ -184,7 +187,7 @@ void for_each_crossing(const PolarGrid<dim>& grid, const std::array<int, dim>& c
       }
       const SplineLine line = line_of<dim>(spline, weights_at<dim>(grid, cell, xi), axis);
       const auto derivatives = [&](double x) {
-        const auto weights = axis_weights<dim>(grid, cell, axis, x);
+        const auto weights = spline_derivative_weights(grid, axis, cell[axis], x);
         return std::pair{line(weights[0]), line(weights[1])};
       };
       bool negative = derivatives(0).first < 0;
@@ -199,15 +202,6 @@ void for_each_crossing(const PolarGrid<dim>& grid, const std::array<int, dim>& c
       }
     }
   }
-}
-
-template <int dim>
-Vec<dim> polar_place(const PolarGrid<dim>& grid, const std::array<int, dim>& cell, const Vec<dim>& xi) {
-  const Vec<dim> size = grid.cell_size();
-  Vec<dim> place;
-  for (int d = 0; d < dim; ++d) place[d] = (cell[d] + xi[d]) * size[d];
-  place[0] += grid.inner_radius;
-  return place;
 }
 
 /// A unit vector of the tangent plane along which the curvature is the largest.
@@ -265,8 +259,9 @@ std::vector<EdgePoint<dim>> internal_corners(const LevelSet<dim>& coefficients, 
     const SplineCell<dim> spline(coefficients, cell);
     if (!spline.may_be_cut()) continue;
     for_each_crossing<dim>(grid, cell, spline, [&](int axis, const Vec<dim>& xi) {
-      const Vec<dim> place = polar_place<dim>(grid, cell, xi);
-      const auto f = jet(partials_at<dim>(grid, spline, weights_at<dim>(grid, cell, xi)), place[0]);
+      const Vec<dim> place = grid.polar_point(cell, xi);
+      const auto weights = weights_at<dim>(grid, cell, xi);
+      const auto f = jet(partials_at<dim>(grid.cell_size(cell[0]), spline, weights), place[0]);
       const double value = principal_curvature(f).value;
       if (value >= curvature) result.push_back({cell, xi, axis, place, value});
     });
@@ -280,13 +275,14 @@ std::vector<Dependence> curvature_dependence(const LevelSet<dim>& coefficients, 
   const SplineCell<dim> spline(coefficients, point.cell);
   const auto weights = weights_at<dim>(grid, point.cell, point.xi);
   const double radius = point.place[0];
-  const auto f = partials_at<dim>(grid, spline, weights);
+  const Vec<dim> size = grid.cell_size(point.cell[0]);
+  const auto f = partials_at<dim>(size, spline, weights);
   const auto curvature = principal_curvature(jet(f, radius));
-  double along = rate(curvature, jet(partials_at<dim>(grid, spline, weights, point.axis), radius));
+  double along = rate(curvature, jet(partials_at<dim>(size, spline, weights, point.axis), radius));
   if (point.axis == 0) along += rate(curvature, jet_by_radius(f, radius));
   std::vector<Dependence> result;
   for (int k = 0; k < spline.n; ++k) {
-    const auto change = partials_by<dim>(grid, weights, k);
+    const auto change = partials_by<dim>(size, spline, weights, k);
     const double moved = -change.value / f.first[point.axis];
     const double weight = rate(curvature, jet(change, radius)) + moved * along;
     if (weight != 0) result.push_back({spline.node[k], weight});

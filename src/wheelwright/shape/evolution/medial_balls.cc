@@ -23,7 +23,7 @@ constexpr double beyond_ball = 3, beyond_tip = 1.5;
 template <int dim>
 Vec<dim> normal_at(const CubicInterpolant<dim>& psi, const Vec<dim>& point) {
   const Vec<dim> gradient = psi(point).gradient;
-  return rotated<dim>(gradient / norm(gradient), point[1] * psi.lattice().spacing()[1]);
+  return rotated<dim>(gradient / norm(gradient), point[1] * psi.lattice().node_angle());
 }
 
 template <int dim>

@@ -91,8 +91,8 @@ template <int dim>
 std::vector<SparseSpd::Entry> multilinear_form(const Lattice<dim>& lattice, double mass, double stiffness) {
   std::vector<CornerMatrix<dim>> rings;
   for (int i = 0; i + 1 < lattice.nodes()[0]; ++i)
-    rings.push_back(element_matrix<dim>(lattice.grid().inner_radius + i * lattice.spacing()[0],
-                                        lattice.spacing(), mass, stiffness));
+    rings.push_back(
+        element_matrix<dim>(lattice.radius(i), lattice.spacing(lattice.row_of(i)), mass, stiffness));
   std::vector<SparseSpd::Entry> entries;
   for (int node = 0; node < lattice.n_nodes(); ++node) {
     const auto first = lattice.node_position(node);

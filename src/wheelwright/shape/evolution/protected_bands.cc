@@ -41,9 +41,8 @@ double ProtectedBands<dim>::distance(double radius) const {
 
 template <int dim>
 bool ProtectedBands<dim>::touches(const SurfacePoint<dim>& point) const {
-  const double radius =
-      grid_.inner_radius + (grid_.cell_position(point.cell)[0] + point.xi[0]) * grid_.cell_size()[0];
-  return distance(radius) < near_edge * grid_.resolution();
+  return distance(grid_.radius(grid_.cell_position(point.cell)[0] + point.xi[0])) <
+         near_edge * grid_.resolution();
 }
 
 template <int dim>
@@ -56,9 +55,15 @@ LevelSet<dim> ProtectedBands<dim>::keep(LevelSet<dim> psi) const {
 template <int dim>
 std::vector<ShapeEvent<dim>> ProtectedBands<dim>::contacts(const Components<dim>& before,
                                                            const Components<dim>& after) const {
-  const double reach = near_edge * grid_.resolution() + after.samples.spacing()[0];
-  const auto at_rim = [&](const Component<dim>& hole) { return hole.innermost[0] - range_.inner < reach; };
-  const auto at_tread = [&](const Component<dim>& hole) { return range_.outer - hole.outermost[0] < reach; };
+  const auto reach = [&](double edge) {
+    return near_edge * grid_.resolution() + after.samples.spacing(grid_.row_at(edge))[0];
+  };
+  const auto at_rim = [&](const Component<dim>& hole) {
+    return hole.innermost[0] - range_.inner < reach(range_.inner);
+  };
+  const auto at_tread = [&](const Component<dim>& hole) {
+    return range_.outer - hole.outermost[0] < reach(range_.outer);
+  };
   const auto were = overlapping_holes(after, before);
   std::vector<ShapeEvent<dim>> events;
   for (std::size_t k = 0; k < after.all.size(); ++k) {

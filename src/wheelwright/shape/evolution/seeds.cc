@@ -16,8 +16,8 @@ Vec<dim> edge_root(const CubicInterpolant<dim>& psi, const std::array<int, dim>&
   for (int d = 0; d < dim; ++d) x[d] = node[d];
   double low = node[axis], high = node[axis] + 1;
   const bool negative_at_low = psi(x).value < 0;
-  double length = psi.lattice().spacing()[axis];
-  if (axis == 1) length *= psi.lattice().grid().inner_radius + node[0] * psi.lattice().spacing()[0];
+  double length = psi.lattice().spacing(psi.lattice().row_of(node[0]))[axis];
+  if (axis == 1) length *= psi.lattice().radius(node[0]);
   x[axis] = 0.5 * (low + high);
   for (int k = 0; k < 60; ++k) {
     const Jet<dim> jet = psi(x);
@@ -88,10 +88,7 @@ std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector
 
 template <int dim>
 Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point) {
-  Vec<dim> polar;
-  for (int d = 0; d < dim; ++d) polar[d] = point[d] * lattice.spacing()[d];
-  polar[0] += lattice.grid().inner_radius;
-  return cartesian<dim>(polar);
+  return cartesian<dim>(lattice.polar_of(point));
 }
 
 template decltype(with_images<2>) with_images<2>;

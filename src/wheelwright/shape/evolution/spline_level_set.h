@@ -12,6 +12,11 @@ namespace wheelwright {
 // design variables. Otherwise the nodes between the vertices are independent variables, and edges grow teeth
 // smaller than a cell, which the discrete energy rewards and the true one does not. Level sets of degree 1
 // have vertices only: both functions return them as they are.
+//
+// Where rows of unequal height meet, the control points of the B-splines do not lie at the vertices but at
+// the means of three of them (Greville). The coefficients remain values at the vertices: a control point has
+// the value there of the straight line between two of them. So larger coefficients give a spline that is
+// nowhere smaller, and a linear function of the radius has its own values as coefficients.
 
 /// The coefficients of the spline that has the values of psi at the vertices. At its ends along the radius
 /// (and the width) it is linear. The nodes between the vertices have values for transport(), by cubic
@@ -24,15 +29,27 @@ LevelSet<dim> spline_coefficients(const LevelSet<dim>& psi);
 template <int dim>
 LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);
 
-/// The weights of the coefficients around a cell along one axis in the value at xi in [0, 1]: those of the
-/// vertices cell - 1, cell, cell + 1 and cell + 2 of `n_vertices`, zero for vertices that do not exist. For
-/// degree 1 the weights of the vertices' values.
-std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vertices, bool is_periodic);
+/// The vertices along an axis on whose coefficients the spline in a cell depends: the four nearest, or six
+/// along the radius if rows have unequal heights. Some may not exist; their weights are zero.
+struct SplineSupport {
+  static constexpr int most = 6;
+  int first, count;
+};
+template <int dim>
+SplineSupport spline_support(const PolarGrid<dim>& grid, int axis, int cell);
 
-/// Weights of the same coefficients for the derivatives of order 0 to 3 in xi of the spline itself, which a
-/// level set of degree 2 interpolates at the nodes.
-std::array<std::array<double, 4>, 4> spline_derivative_weights(int cell, double xi, int n_vertices,
-                                                               bool is_periodic);
+/// The weights of these coefficients.
+using SplineWeights = std::array<double, SplineSupport::most>;
+
+/// In the value at xi in [0, 1]. For degree 1 the weights of the vertices' values.
+template <int dim>
+SplineWeights spline_weights(const PolarGrid<dim>& grid, int degree, int axis, int cell, double xi);
+
+/// In the derivatives of order 0 to 3 in xi of the spline itself, which a level set of degree 2 interpolates
+/// at the nodes.
+template <int dim>
+std::array<SplineWeights, 4> spline_derivative_weights(const PolarGrid<dim>& grid, int axis, int cell,
+                                                       double xi);
 
 /// The dependence on one of the coefficients: its node, and the derivative.
 struct Dependence {

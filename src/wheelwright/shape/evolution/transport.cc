@@ -35,6 +35,36 @@ void read_line(const Lattice<dim>& lattice, const std::vector<double>& phi, int 
   }
 }
 
+/// One-sided differences of second order at the value in the middle of five.
+struct OneSided {
+  double backward, forward;
+};
+
+/// Of values at the distance 1 from each other.
+OneSided one_sided(const double* v) {
+  const double curvature = v[-1] - 2 * v[0] + v[1];
+  return {v[0] - v[-1] + 0.5 * minmod(v[-2] - 2 * v[-1] + v[0], curvature),
+          v[1] - v[0] - 0.5 * minmod(curvature, v[0] - 2 * v[1] + v[2])};
+}
+
+/// Of values at the places x.
+OneSided one_sided(const double* v, const double* x) {
+  const auto slope = [&](int i) { return (v[i + 1] - v[i]) / (x[i + 1] - x[i]); };
+  const auto half_curvature = [&](int i) { return (slope(i) - slope(i - 1)) / (x[i + 1] - x[i - 1]); };
+  return {slope(-1) + minmod(half_curvature(-1), half_curvature(0)) * (x[0] - x[-1]),
+          slope(0) - minmod(half_curvature(0), half_curvature(1)) * (x[1] - x[0])};
+}
+
+/// The radii of the nodes of a line along the radius with the ghost values of read_line(); empty if they are
+/// equally spaced.
+template <int dim>
+std::vector<double> unequal_radii(const Lattice<dim>& lattice) {
+  std::vector<double> radii;
+  if (lattice.grid().fixed_lines.empty()) return radii;
+  for (int i = -n_ghosts; i < lattice.nodes()[0] + n_ghosts; ++i) radii.push_back(lattice.radius(i));
+  return radii;
+}
+
 /// Square of the one-sided derivative that Godunov's scheme selects for a front with this speed.
 double upwind_square(double backward, double forward, double speed) {
   const double b = speed > 0 ? std::max(backward, 0.0) : std::min(backward, 0.0);
@@ -47,23 +77,25 @@ template <int dim>
 std::vector<double> squared_gradient(const Lattice<dim>& lattice, const std::vector<double>& phi,
                                      std::span<const double> velocity) {
   const auto stride = lattice_strides(lattice);
-  const auto spacing = lattice.spacing();
+  const auto spacing = lattice.spacing(0);
+  const std::vector<double> radii = unequal_radii(lattice);
   std::vector<double> result(phi.size()), line;
-  for (int axis = 0; axis < dim; ++axis)
+  for (int axis = 0; axis < dim; ++axis) {
+    const bool is_unequal = axis == 0 && !radii.empty();
     for (const int first : first_nodes(lattice, axis)) {
       read_line(lattice, phi, first, axis, line);
       const double radius = lattice.polar_point(first)[0];
-      const double length = spacing[axis] * (axis == 1 ? radius : 1);
+      const double length = is_unequal ? 1 : spacing[axis] * (axis == 1 ? radius : 1);
       for (int i = 0; i < lattice.nodes()[axis]; ++i) {
         const int node = first + i * stride[axis];
         if (velocity[node] == 0) continue;
         const double* v = line.data() + n_ghosts + i;
-        const double curvature = v[-1] - 2 * v[0] + v[1];
-        const double backward = v[0] - v[-1] + 0.5 * minmod(v[-2] - 2 * v[-1] + v[0], curvature);
-        const double forward = v[1] - v[0] - 0.5 * minmod(curvature, v[0] - 2 * v[1] + v[2]);
+        const auto [backward, forward] =
+            is_unequal ? one_sided(v, radii.data() + n_ghosts + i) : one_sided(v);
         result[node] += upwind_square(backward, forward, velocity[node]) / (length * length);
       }
     }
+  }
   return result;
 }
 
@@ -82,8 +114,10 @@ double crossing_rate(const Lattice<dim>& lattice, std::span<const double> veloci
   double rate = 0;
   for (int node = 0; node < lattice.n_nodes(); ++node) {
     if (velocity[node] == 0) continue;
-    Vec<dim> length = lattice.spacing();
-    length[1] *= lattice.polar_point(node)[0];
+    const int place = lattice.node_position(node)[0];
+    Vec<dim> length = lattice.spacing(lattice.row_of(place));
+    length[0] = std::min(length[0], lattice.spacing(lattice.row_of(place - 1))[0]);
+    length[1] *= lattice.radius(place);
     double inverse_length = 0;
     for (double l : length) inverse_length += 1 / l;
     rate = std::max(rate, std::abs(velocity[node]) * inverse_length);

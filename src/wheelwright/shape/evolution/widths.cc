@@ -111,8 +111,9 @@ std::vector<NarrowPlace<dim>> thinned_out(const PolarGrid<dim>& grid, const std:
 template <int dim>
 Vec<dim> in_units(const Lattice<dim>& lattice, const Vec<dim>& x) {
   Vec<dim> point = polar<dim>(x);
-  point[0] -= lattice.grid().inner_radius;
-  for (int d = 0; d < dim; ++d) point[d] /= lattice.spacing()[d];
+  point[0] = lattice.place_at(point[0]);
+  point[1] /= lattice.node_angle();
+  if constexpr (dim == 3) point[2] /= lattice.grid().axial_size() / lattice.degree();
   return point;
 }
 

@@ -6,10 +6,13 @@ template <int dim>
 LevelSet<dim> in_rows(const LevelSet<dim>& psi, int first, int end) {
   const int degree = psi.lattice.degree();
   PolarGrid<dim> grid = psi.lattice.grid();
-  const double row = grid.cell_size()[0], rim = grid.inner_radius;
-  if (end < grid.cells[0]) grid.outer_radius = rim + end * row;
-  if (first > 0) grid.inner_radius = rim + first * row;
+  const PolarGrid<dim>& whole = psi.lattice.grid();
+  if (end < grid.cells[0]) grid.outer_radius = whole.radius(end);
+  if (first > 0) grid.inner_radius = whole.radius(first);
   grid.cells[0] = end - first;
+  std::erase_if(grid.fixed_lines,
+                [&](const FixedLine& fixed) { return fixed.line <= first || fixed.line >= end; });
+  for (FixedLine& fixed : grid.fixed_lines) fixed.line -= first;
   LevelSet<dim> part{Lattice<dim>(grid, degree), {}};
   for (int node = 0; node < part.lattice.n_nodes(); ++node) {
     auto position = part.lattice.node_position(node);

@@ -35,10 +35,14 @@ struct HoleRange {
 template <int dim>
 HoleRange hole_range(const PolarGrid<dim>& grid, const Bands& bands) {
   const double h = grid.resolution();
-  const auto thickness = [&](const Band& band) {
-    return std::max(band.thickness + 0.001 * h, band.full_rows * grid.cell_size()[0] + 0.1 * h);
+  const auto thickness = [&](const Band& band, double of_full_rows) {
+    return std::max(band.thickness + 0.001 * h, of_full_rows + 0.1 * h);
   };
-  return {grid.inner_radius + thickness(bands.rim), grid.outer_radius - thickness(bands.tread)};
+  const int rows = grid.cells[0];
+  const double at_rim = grid.height_of_rows(0, bands.rim.full_rows),
+               at_tread = grid.height_of_rows(rows - bands.tread.full_rows, rows);
+  return {grid.inner_radius + thickness(bands.rim, at_rim),
+          grid.outer_radius - thickness(bands.tread, at_tread)};
 }
 
 }  // namespace wheelwright

@@ -94,7 +94,6 @@ class FloodFill {
   explicit FloodFill(const Samples<dim>& samples)
       : samples_(samples),
         lattice_(samples.lattice()),
-        spacing_(lattice_.spacing()),
         result_{lattice_, std::vector<int>(lattice_.n_nodes(), -1), {}} {
     stride_[0] = 1;
     if constexpr (dim == 3) stride_[2] = lattice_.nodes()[0];
@@ -119,7 +118,7 @@ class FloodFill {
   /// Collects the component of a sample.
   void fill(int first) {
     const Place begin{lattice_.node_position(first), first};
-    const Vec<dim> origin = polar_point(begin.position);
+    const Vec<dim> origin = lattice_.polar_point(begin.position);
     Component<dim> component{.is_material = samples_.is_material(first),
                              .measure = 0,
                              .centre = {},
@@ -196,25 +195,20 @@ class FloodFill {
            samples_.is_material_between(place.position, a, b, step_a, step_b) == material;
   }
 
-  /// As Lattice::polar_point().
-  Vec<dim> polar_point(const std::array<int, dim>& p) const {
-    Vec<dim> x = componentwise_product(p, spacing_);
-    x[0] += lattice_.grid().inner_radius;
-    return x;
-  }
-
-  /// The measure that belongs to a sample.
+  /// The measure that belongs to a sample: half of the way to each of its neighbours.
   double share_of(const std::array<int, dim>& p) const {
-    double share = polar_point(p)[0];
+    double share = lattice_.radius(p[0]);
+    const Vec<dim> below = lattice_.spacing(lattice_.row_of(p[0] - 1)),
+                   above = lattice_.spacing(lattice_.row_of(p[0]));
     for (int d = 0; d < dim; ++d) {
-      const bool on_end = d != 1 && (p[d] == 0 || p[d] + 1 == lattice_.nodes()[d]);
-      share *= spacing_[d] * (on_end ? 0.5 : 1);
+      const bool is_first = d != 1 && p[d] == 0, is_last = d != 1 && p[d] + 1 == lattice_.nodes()[d];
+      share *= 0.5 * ((is_first ? 0 : below[d]) + (is_last ? 0 : above[d]));
     }
     return share;
   }
 
   void add(const std::array<int, dim>& p, Component<dim>& component) const {
-    const Vec<dim> x = polar_point(p);
+    const Vec<dim> x = lattice_.polar_point(p);
     const double share = share_[lattice_.index_on_line(p)];
     component.measure += share;
     component.centre += share * x;
@@ -232,7 +226,6 @@ class FloodFill {
 
   const Samples<dim>& samples_;
   const Lattice<dim>& lattice_;
-  Vec<dim> spacing_;
   std::array<int, dim> stride_;  ///< of the samples' indices
   std::vector<double> share_;    ///< share_of() the samples at one azimuth
   std::vector<Place> front_;

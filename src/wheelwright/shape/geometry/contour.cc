@@ -182,7 +182,7 @@ std::vector<Segment> sector_segments(const LevelSet<2>& psi, int subdivisions) {
   const SampledLevelSet samples(psi, subdivisions);
   const PolarGrid<2>& grid = psi.lattice.grid();
   const int degree = psi.lattice.degree();
-  const double column_angle = grid.cell_size()[1];
+  const double column_angle = grid.column_angle();
   std::vector<CellMap<2>> maps;
   for (int row = 0; row < grid.cells[0]; ++row) maps.emplace_back(grid, degree, std::array{row, 0});
 

@@ -26,7 +26,12 @@ LevelSet<2> mid_plane_section(const LevelSet<3>& psi) {
 
 Lattice<2> section_lattice(const Lattice<3>& lattice) {
   const PolarGrid<3>& grid = lattice.grid();
-  return {{grid.inner_radius, grid.outer_radius, grid.width, grid.n_sectors, {grid.cells[0], grid.cells[1]}},
+  return {{grid.inner_radius,
+           grid.outer_radius,
+           grid.width,
+           grid.n_sectors,
+           {grid.cells[0], grid.cells[1]},
+           grid.fixed_lines},
           lattice.degree()};
 }
 

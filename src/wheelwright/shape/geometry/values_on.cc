@@ -41,21 +41,28 @@ bool have_same_nodes(const Lattice<dim>& a, const Lattice<dim>& b) {
   const PolarGrid<dim>&first = a.grid(), &second = b.grid();
   bool is_same = a.degree() == b.degree() && first.ring_columns() == second.ring_columns();
   for (int d = 0; d < dim; ++d) is_same = is_same && (d == 1 || first.cells[d] == second.cells[d]);
+  const double most = rounding * first.outer_radius;
+  for (int row = 0; row < first.cells[0] && is_same; ++row)
+    is_same = std::abs(first.row_height(row) - second.row_height(row)) <= most;
   return is_same;
 }
 
 template <int dim>
 double value_at(const LevelSet<dim>& psi, const Vec<dim>& polar) {
   const PolarGrid<dim>& grid = psi.lattice.grid();
-  const Vec<dim> size = grid.cell_size();
   std::array<int, dim> cell;
   Vec<dim> xi;
   for (int d = 0; d < dim; ++d) {
-    double from_start = polar[d];
-    if (d == 0) from_start -= grid.inner_radius;
-    if (d == 1) from_start -= std::floor(from_start / grid.sector_angle()) * grid.sector_angle();
-    cell[d] = std::clamp(static_cast<int>(std::floor(from_start / size[d])), 0, grid.cells[d] - 1);
-    xi[d] = from_start / size[d] - cell[d];
+    double cells = polar[d];  // from the start of the axis
+    if (d == 0)
+      cells = grid.line_at(polar[0]);
+    else if (d == 1)
+      cells =
+          (polar[1] - std::floor(polar[1] / grid.sector_angle()) * grid.sector_angle()) / grid.column_angle();
+    else if constexpr (dim == 3)
+      cells /= grid.axial_size();
+    cell[d] = std::clamp(static_cast<int>(std::floor(cells)), 0, grid.cells[d] - 1);
+    xi[d] = cells - cell[d];
   }
   const ShapeFunctions<dim> shape(psi.lattice.degree(), xi);
   double value = 0;

@@ -30,14 +30,13 @@ Vec<2> ZeroContour::unit_cell_point(const Vec<2>& in_cell_frame, int row, Vec<2>
 }
 
 ZeroContour::Place ZeroContour::place(const Vec<2>& point) const {
-  const Vec<2> size = grid_.cell_size();
-  const double radial = (std::hypot(point[0], point[1]) - grid_.inner_radius) / size[0];
-  const double azimuthal = std::atan2(point[1], point[0]) / size[1];
+  const double radial = grid_.line_at(std::hypot(point[0], point[1]));
+  const double azimuthal = std::atan2(point[1], point[0]) / grid_.column_angle();
   Place found{std::clamp(static_cast<int>(std::floor(radial)), 0, grid_.cells[0] - 1),
               static_cast<int>(std::floor(azimuthal)),
               {}};
   const auto enter = [&] {
-    const Vec<2> in_cell_frame = rotated<2>(point, -found.column * size[1]);
+    const Vec<2> in_cell_frame = rotated<2>(point, -found.column * grid_.column_angle());
     found.xi = unit_cell_point(in_cell_frame, found.row, {radial - found.row, azimuthal - found.column});
   };
   enter();
@@ -62,7 +61,7 @@ ZeroContour::Value ZeroContour::at(const Vec<2>& point) const {
     reference += nodal[a] * shape.gradient[a];
   }
   const Vec<2> gradient = transpose_times<2>(inverse<2>(maps_[where.row].jacobian(shape)), reference);
-  return {psi, rotated<2>(gradient, where.column * grid_.cell_size()[1])};
+  return {psi, rotated<2>(gradient, where.column * grid_.column_angle())};
 }
 
 std::optional<Vec<2>> ZeroContour::projection(const Vec<2>& point) const {

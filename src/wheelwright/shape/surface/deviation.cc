@@ -56,8 +56,7 @@ SurfaceDeviation deviation(const SurfaceMesh& mesh, const LevelSet<3>& psi, int 
     const double found = distance(psi, place, map_degree);
     if (!(found > largest.distance)) continue;
     largest.distance = found;
-    largest.place = componentwise_product(u, grid.cell_size());
-    largest.place[0] += grid.inner_radius;
+    largest.place = grid.polar_point(place.cell, place.xi);
   }
   return largest;
 }

@@ -29,7 +29,7 @@ FineLattice::FineLattice(const LevelSet<3>& psi, int parts, int map_degree)
         values_.push_back(value);
         places_.push_back(
             rotated<3>(CellMap<3>(grid_, map_degree, cell).position(ShapeFunctions<3>(map_degree, xi)),
-                       cell[1] * grid_.cell_size()[1]));
+                       cell[1] * grid_.column_angle()));
       }
 }
 
