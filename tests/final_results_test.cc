@@ -28,6 +28,7 @@ class StateOfOneLoad : public State<2> {
   const LoadPositions& positions() const override { return state_->positions(); }
   const std::vector<ContactPatch<2>>& contacts() const override { return state_->contacts(); }
   const std::vector<double>& strain_energy() const override { return state_->strain_energy(); }
+  const std::vector<double>& energy_by_harmonic() const override { return state_->energy_by_harmonic(); }
   const Matrix& observations() const override { return state_->observations(); }
   const std::vector<PhaseTime>& phases() const override { return state_->phases(); }
   const Displacement<2>& displacement() const override { return state_->displacement(); }

@@ -64,7 +64,8 @@ struct MaterialLayer : OrthotropicConstants {
   std::optional<double> outer_radius = {};  ///< absent: the tread
   double youngs_modulus = 200e6;            ///< [Pa]
   double poissons_ratio = 0.48;
-  std::optional<double> density = {};  ///< [kg/m^3]
+  std::optional<double> density = {};      ///< [kg/m^3]
+  std::optional<double> loss_factor = {};  ///< tan(delta)
   LayerHoles holes = LayerHoles::allowed;
   bool operator==(const MaterialLayer&) const = default;
 };

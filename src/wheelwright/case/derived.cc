@@ -162,6 +162,25 @@ double smallest_hole_in_cells(const Case& c) {
   return smallest / std::max(radial, azimuthal);
 }
 
+namespace {
+
+/// N a / (2 R_e) of the harmonic N / 2.
+double resolved_harmonic(const Case& c) {
+  return 0.5 * total_load_positions(c) * likely_half_width(c) / c.wheel.outer_radius;
+}
+
+}  // namespace
+
+double unresolved_losses(const Case& c) {
+  const double x = resolved_harmonic(c);
+  return std::min(1.0, 3 / (8 * x * x));
+}
+
+int positions_for_losses(const Case& c, double share) {
+  const double x = std::sqrt(3 / (8 * share));
+  return static_cast<int>(std::ceil(c.load.positions * x / resolved_harmonic(c)));
+}
+
 double cells_per_contact_patch(const Case& c) { return 2 * likely_half_width(c) / tread_cell_width(c); }
 
 double sector_angle(const Case& c) { return 2 * pi / c.wheel.sectors; }

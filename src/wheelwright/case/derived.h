@@ -80,6 +80,14 @@ double cells_per_contact_patch(const Case& c);
 /// Contact pressures are not resolved with fewer cells per patch than this.
 inline constexpr double least_cells_per_contact_patch = 6;
 
+/// The share of the rolling resistance that the load positions do not resolve, as an estimate: that of a
+/// half-plane under Hertz's pressure on the likely contact patch, whose harmonics above N / 2 have the share
+/// 3 / 8 (2 R_e / (N a))^2, with N positions around the wheel; at most 1.
+double unresolved_losses(const Case& c);
+
+/// The least load.positions that leave at most this share.
+int positions_for_losses(const Case& c, double share);
+
 /// Width of the smallest hole in units of the longer cell edge at mid-ring; infinite without holes.
 double smallest_hole_in_cells(const Case& c);
 

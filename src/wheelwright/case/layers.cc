@@ -22,7 +22,7 @@ std::vector<std::size_t> outward(const Case& c) {
 Material isotropic_material(const Case& c, const std::optional<std::size_t>& layer) {
   if (!layer) return c.material;
   const MaterialLayer& from = c.layers[*layer];
-  return {from.youngs_modulus, from.poissons_ratio, c.material.plane, from.density};
+  return {from.youngs_modulus, from.poissons_ratio, c.material.plane, from.density, from.loss_factor};
 }
 
 std::variant<Material, OrthotropicMaterial> material_of(const Case& c,
@@ -58,7 +58,8 @@ std::optional<OrthotropicMaterial> orthotropic_material(const Case& c,
                              .shear_rz = given.shear_modulus_radial_axial.value_or(g),
                              .shear_tz = given.shear_modulus_azimuthal_axial.value_or(g),
                              .plane = isotropic.plane,
-                             .density = isotropic.density};
+                             .density = isotropic.density,
+                             .loss_factor = isotropic.loss_factor};
 }
 
 double PlacedMaterial::youngs_modulus() const {
@@ -71,6 +72,10 @@ double PlacedMaterial::contact_modulus() const {
 
 std::optional<double> PlacedMaterial::density() const {
   return std::visit([](const auto& m) { return m.density; }, material);
+}
+
+std::optional<double> PlacedMaterial::loss_factor() const {
+  return std::visit([](const auto& m) { return m.loss_factor; }, material);
 }
 
 double PlacedMaterial::least_compliance() const {
@@ -194,10 +199,25 @@ std::vector<double> radii_of_lines(const Case& c) {
   return is_inside ? radii : std::vector<double>();
 }
 
-bool has_density(const Case& c, const std::optional<PartOfRing>& part) {
+namespace {
+
+using Constant = std::optional<double> (PlacedMaterial::*)() const;
+
+/// Whether every material of the ring has a constant, or that of a part.
+bool all_have(const Case& c, const std::optional<PartOfRing>& part, Constant constant) {
   return std::ranges::all_of(placed_materials(c), [&](const PlacedMaterial& placed) {
-    return (part && placed.name != part->name) || placed.density().has_value();
+    return (part && placed.name != part->name) || (placed.*constant)().has_value();
   });
+}
+
+}  // namespace
+
+bool has_density(const Case& c, const std::optional<PartOfRing>& part) {
+  return all_have(c, part, &PlacedMaterial::density);
+}
+
+bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part) {
+  return all_have(c, part, &PlacedMaterial::loss_factor);
 }
 
 PlacedMaterial tread_material(const Case& c) { return placed_materials(c).back(); }

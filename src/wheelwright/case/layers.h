@@ -25,7 +25,8 @@ struct PlacedMaterial {
   double youngs_modulus() const;
   /// E* of Hertz's theory [Pa].
   double contact_modulus() const;
-  std::optional<double> density() const;  ///< [kg/m^3]
+  std::optional<double> density() const;      ///< [kg/m^3]
+  std::optional<double> loss_factor() const;  ///< tan(delta)
   /// The least share of a unit compliance: near 0 elements lock. 1 - 2 nu of an isotropic material in plane
   /// strain.
   double least_compliance() const;
@@ -93,6 +94,9 @@ std::vector<double> radii_of_lines(const Case& c);
 
 /// Whether the density of every material of the ring is known, or that of a part's.
 bool has_density(const Case& c, const std::optional<PartOfRing>& part = {});
+
+/// The same of the loss factor.
+bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part = {});
 
 /// The material at the tread.
 PlacedMaterial tread_material(const Case& c);

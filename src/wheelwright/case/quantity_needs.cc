@@ -9,6 +9,8 @@ bool has(const Case& c, Input input, const std::optional<PartOfRing>& part) {
   switch (input) {
     case Input::density:
       return has_density(c, part);
+    case Input::loss_factor:
+      return has_loss_factor(c, part);
     case Input::load:
       return !c.load.travel;
     case Input::travel:
@@ -27,6 +29,9 @@ Need need(const SingleLoad& single, Input input) {
   switch (input) {
     case Input::density:
       return {key_of(&Material::density), "the mass needs the density of every material"};
+    case Input::loss_factor:
+      return {key_of(&Material::loss_factor),
+              "the rolling resistance needs the loss factor of every material, 0 for one without losses"};
     case Input::load:
       return {single.key(&Load::travel), "the travel varies only under a load; here it is prescribed"};
     case Input::travel:
@@ -48,6 +53,8 @@ Constancy constancy_without(const SingleLoad& single, Input input) {
   switch (input) {
     case Input::density:
       return {key_of(&Material::density), "it is 0 without a density", "set material.density"};
+    case Input::loss_factor:
+      return {key_of(&Material::loss_factor), "it is 0 without a loss factor", "set material.loss_factor"};
     case Input::load:
       return {single.key(&Load::travel), "it is the prescribed travel for every wheel",
               "set a load in place of load.travel"};

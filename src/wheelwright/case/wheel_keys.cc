@@ -50,7 +50,7 @@ const Section<Wheel>& wheel_section() {
 namespace {
 
 constexpr Range modulus = above(0, 1e13), ratio = at_least_and_below(0, 0.5), densities = above(0, 1e5),
-                any_ratio = between(-100, 100);
+                loss_factors = between(0, 2), any_ratio = between(-100, 100);
 constexpr std::string_view
     meaning_of_modulus =
         "E: Young's modulus of an isotropic material; an orthotropic one has youngs_modulus_radial and "
@@ -58,6 +58,9 @@ constexpr std::string_view
     meaning_of_ratio =
         "nu: Poisson's ratio of an isotropic material; at most 0.49999 and, above 0.485, with "
         "grid.degree = 2, if plane = \"strain\"",
+    meaning_of_loss_factor =
+        "tan(delta): loss modulus by storage modulus, for the rolling resistance, which needs that of every "
+        "material; 0 has no losses, and above about 0.3 the resistance is only a rough estimate",
     isotropic = "the material is isotropic";
 
 /// The constants of an orthotropic material, as keys of Struct.
@@ -148,7 +151,11 @@ const Section<RingMaterial>& material_section() {
             .unit = "kg/m^3",
             .field = OptionalNumberField<Struct>{&Struct::density, densities, "no mass is shown"},
             .meaning = "for the mass of the wheel, also if it is minimized or bounded, and for "
-                       "load.speed; the weight is set by load.body_force"}})};
+                       "load.speed; the weight is set by load.body_force"},
+           {.name = "loss_factor",
+            .field = OptionalNumberField<Struct>{&Struct::loss_factor, loss_factors,
+                                                 "no rolling resistance is shown"},
+            .meaning = meaning_of_loss_factor}})};
   return section;
 }
 
@@ -186,6 +193,10 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
             .field =
                 OptionalNumberField<MaterialLayer>{&MaterialLayer::density, densities, "no mass is shown"},
             .meaning = "for the mass of the wheel and for load.speed, which need that of every material"},
+           {.name = "loss_factor",
+            .field = OptionalNumberField<MaterialLayer>{&MaterialLayer::loss_factor, loss_factors,
+                                                        "no rolling resistance is shown"},
+            .meaning = meaning_of_loss_factor},
            {.name = "holes",
             .field = choice<&MaterialLayer::holes>({"allowed", "none"}),
             .meaning = "none: the layer stays solid, like a protected band of its thickness"}})};

@@ -53,6 +53,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
                        .under_loads = {},
                        .dimension = dim,
                        .finer = {}};
+  report.losses = rolling_losses(solver, wheel.shape, solution);
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
   report.under_loads = under_loads<dim>(solution, report.loads);
   return report;
@@ -64,7 +65,8 @@ Expected<FinerReport, std::string> finer_report(const Expected<SolvedFinerShape<
                                                 const std::vector<double>& loads) {
   if (!finer) return finer.failure();
   return FinerReport{rolling_analysis(*finer->solver, *finer->states),
-                     under_loads<dim>(*finer->states, loads), finer->refinement};
+                     under_loads<dim>(*finer->states, loads), finer->refinement,
+                     rolling_losses<dim>(*finer->solver, finer->shape, *finer->states)};
 }
 
 void write_plots(const std::filesystem::path& folder, const RollingReport& report) {

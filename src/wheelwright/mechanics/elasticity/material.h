@@ -17,13 +17,17 @@ struct Material {
   double poissons_ratio = 0.48;        ///< nu, 0 <= nu < 1/2
   Plane plane = Plane::strain;         ///< must be strain when dim = 3
   std::optional<double> density = {};  ///< [kg/m^3]; needed for the mass and for rotation
+  /// tan(delta): the energy that a cycle of harmonic strain loses, over 2 pi times its elastic energy at the
+  /// largest strain; for the rolling resistance.
+  std::optional<double> loss_factor = {};
 
   /// The material that has the same in-plane stresses in plane strain: itself, or for plane stress E' = E (1
   /// + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).
   Material plane_strain_equivalent() const {
     if (plane == Plane::strain) return *this;
     const double nu = poissons_ratio;
-    return {youngs_modulus * (1 + 2 * nu) / ((1 + nu) * (1 + nu)), nu / (1 + nu), Plane::strain, density};
+    return {youngs_modulus * (1 + 2 * nu) / ((1 + nu) * (1 + nu)), nu / (1 + nu), Plane::strain, density,
+            loss_factor};
   }
 
   /// Lame's parameters of the law sigma = lambda tr(eps) I + 2 mu eps in the model's dimension [Pa]. In plane

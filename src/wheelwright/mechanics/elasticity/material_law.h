@@ -61,6 +61,9 @@ class MaterialLaw {
   /// [kg/m^3]; needed for the mass and for rotation.
   virtual std::optional<double> density() const { return {}; }
 
+  /// tan(delta) (Material::loss_factor), at least 0; needed for the rolling resistance. Of a linear law.
+  virtual std::optional<double> loss_factor() const { return {}; }
+
   /// The constants of isotropic linear elasticity; null for other laws. Elements without locking and
   /// derivatives of stresses with respect to small holes are known for isotropic materials only.
   virtual const Material* isotropic() const { return nullptr; }

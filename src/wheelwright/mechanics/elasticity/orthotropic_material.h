@@ -23,6 +23,7 @@ struct OrthotropicMaterial {
   double shear_rz = 0, shear_tz = 0;       ///< do not count when dim = 2
   Plane plane = Plane::strain;             ///< must be strain when dim = 3
   std::optional<double> density = {};      ///< [kg/m^3]
+  std::optional<double> loss_factor = {};  ///< tan(delta) of all moduli
 
   /// The part of the compliance that is free of units and does not depend on the moduli: it has a unit
   /// diagonal, and -coupling beside it. Their squares are nu_ab nu_ba.

@@ -95,13 +95,24 @@ Number patch_extent(const DescribedWheel<dim>& wheel) {
   });
 }
 
+/// A value of the losses, if they are known.
+template <int dim, class Value>
+Number of_losses(const DescribedWheel<dim>& wheel, const Value& value) {
+  return under_load(wheel, [&](const LoadedWheel<dim>& loaded) -> Number {
+    if (!loaded.losses) return {};
+    if (!*loaded.losses) return to_string(loaded.losses->failure());
+    return value(**loaded.losses);
+  });
+}
+
 template <int dim>
 Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const SolvedStates<dim>& states) {
   if (!states) return states.failure();
   RollingAnalysis rolling = rolling_analysis(solver, **states);
   const auto deformation = deformation_size<dim>(solver, psi, **states, rolling.deformations);
-  return LoadedWheel<dim>{shape_summary(solver, **states), std::move(rolling), deformation};
+  return LoadedWheel<dim>{shape_summary(solver, **states), std::move(rolling), deformation,
+                          rolling_losses(solver, psi, **states)};
 }
 
 }  // namespace
@@ -271,6 +282,24 @@ std::vector<WheelNumber<dim>> numbers_under_load() {
           })};
 }
 
+/// Of wheels whose materials have loss factors.
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of_losses() {
+  using Wheel = DescribedWheel<dim>;
+  return {number<dim>("rolling_resistance",
+                      [](const Wheel& w) {
+                        return of_losses(w, [&](const RollingLosses& l) { return l.resistance * width(w); });
+                      }),
+          {"  unresolved by the load positions, at most", UnitKind::force, "rolling_resistance_unresolved_N",
+           [](const Wheel& w) {
+             return of_losses(w, [&](const RollingLosses& l) { return l.beyond * width(w); });
+           },
+           false, Converges::as_an_extreme},
+          number<dim>("rolling_resistance_coefficient", [](const Wheel& w) {
+            return of_losses(w, [](const RollingLosses& l) { return l.coefficient; });
+          })};
+}
+
 /// How far the wheel is from what linear elasticity assumes, besides its largest strain.
 template <int dim>
 std::vector<WheelNumber<dim>> numbers_of_deformation() {
@@ -317,8 +346,8 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
         number<dim>("mass", [](const Wheel& w) -> Number {
           return w.mass ? Number(*w.mass * width(w)) : std::nullopt;
         })};
-    for (const auto& more :
-         {numbers_under_load<dim>(), numbers_of_deformation<dim>(), numbers_of_outline<dim>()})
+    for (const auto& more : {numbers_under_load<dim>(), numbers_of_losses<dim>(),
+                             numbers_of_deformation<dim>(), numbers_of_outline<dim>()})
       all.insert(all.end(), more.begin(), more.end());
     return all;
   }();
@@ -339,7 +368,16 @@ std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer) {
     };
     return number<dim>(in_part(built_in(quantity), {layer, 0, 0}), of_wheel);
   };
+  const auto resistance = [layer](const DescribedWheel<dim>& wheel) {
+    return of_losses(wheel, [&](const RollingLosses& losses) -> Number {
+      const auto& layers = wheel.loaded->rolling.layers;
+      const auto found = std::ranges::find(layers, layer, &LayerResults::name);
+      if (found == layers.end()) return {};
+      return losses.by_layer[found - layers.begin()] * width(wheel);
+    });
+  };
   return {
+      number<dim>(in_part(built_in("rolling_resistance"), {layer, 0, 0}), resistance),
       of_layer("mass", [](const LayerResults& l,
                           double width) { return l.mass ? std::optional(*l.mass * width) : std::nullopt; }),
       of_layer("peak_von_mises",

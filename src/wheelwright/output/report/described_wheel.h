@@ -15,6 +15,7 @@
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
+#include "wheelwright/quantities/analysis/rolling_losses.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/quantities/functionals/quantity.h"
 
@@ -26,6 +27,7 @@ struct LoadedWheel {
   ShapeSummary<dim> summary;
   RollingAnalysis rolling;
   DeformationSize deformation;
+  std::optional<Expected<RollingLosses>> losses = {};  ///< rolling_losses()
 };
 
 /// Measurements on the curves fitted to the edges of a shape. Nothing when dim = 3, where edges are not plane

@@ -315,6 +315,8 @@ std::string missing_lines(const RollingReport& report) {
   for (const ShownQuantity& q : quantities(report))
     if (!q.variation)
       lines += fmt::format("not computed: {}: {}\n", q.name, to_string(q.variation.failure()));
+  if (report.losses && !*report.losses)
+    lines += fmt::format("not computed: rolling resistance: {}\n", to_string(report.losses->failure()));
   for (size_t k = 0; k < report.loads.size(); ++k)
     if (!report.under_loads[k])
       lines += fmt::format("not computed: load {:.6g} N: {}\n", report.loads[k] * forces(report),
@@ -421,6 +423,29 @@ std::string linear_theory_lines(const RollingReport& report) {
       100 * worst.neglected.of_bending);
 }
 
+/// Null if they are not known.
+const RollingLosses* losses(const std::optional<Expected<RollingLosses>>& known) {
+  return known && *known ? &**known : nullptr;
+}
+
+/// Nothing if the losses are not known on the finer grid.
+std::optional<double> error_of_losses(const RollingReport& report, double RollingLosses::*number) {
+  const RollingLosses* on_finer = finer(report) ? losses(finer(report)->losses) : nullptr;
+  if (!on_finer) return {};
+  return discretization_error(losses(report.losses)->*number, on_finer->*number, finer(report)->refinement);
+}
+
+std::string losses_line(const RollingReport& report) {
+  const RollingLosses& found = *losses(report.losses);
+  return fmt::format(
+      "rolling resistance {} N, {} of the load; the load positions do not resolve at most {:.2g} N of it\n",
+      with_known_error(found.resistance, error_of_losses(report, &RollingLosses::resistance).value_or(NAN),
+                       forces(report)),
+      with_known_error(found.coefficient, error_of_losses(report, &RollingLosses::coefficient).value_or(NAN),
+                       1),
+      found.beyond * forces(report));
+}
+
 double mean_travel_under(const RollingReport& report, size_t load) {
   return travel_variation(*report.under_loads[load]).mean;
 }
@@ -509,6 +534,24 @@ Json layers_json(const RollingReport& report) {
   return layers;
 }
 
+Json losses_json(const RollingReport& report) {
+  const RollingLosses& found = *losses(report.losses);
+  const auto on_width = [&](std::vector<double> values) {
+    for (double& value : values) value *= forces(report);
+    return values;
+  };
+  Json json{{"force_N", found.resistance * forces(report)},
+            {"coefficient", found.coefficient},
+            {"unresolved_N", found.beyond * forces(report)},
+            {"by_harmonic_N", on_width(found.by_harmonic)}};
+  for (size_t k = 0; k < found.by_layer.size(); ++k)
+    json["by_layer_N"][report.analysis.layers[k].name] = found.by_layer[k] * forces(report);
+  if (const auto error = error_of_losses(report, &RollingLosses::resistance))
+    json["errors"] = {{"force_N", *error * forces(report)},
+                      {"coefficient", *error_of_losses(report, &RollingLosses::coefficient)}};
+  return json;
+}
+
 Json loads_json(const RollingReport& report) {
   Json loads = Json::array();
   for (size_t k = 0; k < report.loads.size(); ++k) {
@@ -573,6 +616,7 @@ std::string rolling_table(const RollingReport& report) {
   table += variation_lines(report) + '\n';
   if (!report.analysis.layers.empty()) table += layer_lines(report) + '\n';
   table += stress_line(report) + linear_theory_lines(report);
+  if (losses(report.losses)) table += losses_line(report);
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   if (report.accurate) table += '\n' + accuracy_table(*report.accurate);
@@ -604,6 +648,9 @@ std::string rolling_json(const RollingReport& report) {
   if (report.finer && !*report.finer) json["missing_errors"] = report.finer->failure();
   if (!a.travel_at_load) json["missing"]["travel_at_load_m"] = to_string(a.travel_at_load.failure());
   if (!a.force_at_travel) json["missing"]["force_at_travel_N"] = to_string(a.force_at_travel.failure());
+  if (losses(report.losses)) json["rolling_resistance"] = losses_json(report);
+  if (report.losses && !*report.losses)
+    json["missing"]["rolling_resistance"] = to_string(report.losses->failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
   if (report.accurate) json["accuracy"] = accuracy_json(*report.accurate);
   return json.dump(2) + '\n';

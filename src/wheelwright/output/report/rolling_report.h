@@ -7,6 +7,7 @@
 #include "wheelwright/output/report/accurate_numbers.h"
 #include "wheelwright/output/report/plot_svg.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
+#include "wheelwright/quantities/analysis/rolling_losses.h"
 
 namespace wheelwright {
 
@@ -15,6 +16,7 @@ struct FinerReport {
   RollingAnalysis analysis;
   std::vector<Expected<std::vector<ContactSummary>>> under_loads;
   double refinement;  ///< the factor by which its cells are smaller
+  std::optional<Expected<RollingLosses>> losses = {};
 };
 
 /// The analysis of one shape. Forces are shown on the whole width.
@@ -28,13 +30,14 @@ struct RollingReport {
   int dimension = 2;                                               ///< of the analysis
   /// Nothing: no errors are wanted; the reason if they cannot be estimated.
   std::optional<Expected<FinerReport, std::string>> finer = {};
-  std::optional<AccurateNumbers> accurate = {};  ///< if an accuracy was wanted
+  std::optional<AccurateNumbers> accurate = {};        ///< if an accuracy was wanted
+  std::optional<Expected<RollingLosses>> losses = {};  ///< if the loss factors are known
 };
 
 /// For display: one line per load position, another one if there is friction or torque, variations in
-/// rolling, one line per layer of materials, one line per load, and what could not be computed and why. A
-/// line below the positions has the largest error of each column, and one below each variation its errors.
-/// Last, the accuracy_table().
+/// rolling, one line per layer of materials, the rolling resistance if it is known, one line per load, and
+/// what could not be computed and why. A line below the positions has the largest error of each column, and
+/// one below each variation its errors. Last, the accuracy_table().
 std::string rolling_table(const RollingReport& report);
 
 /// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "wheelwright/mechanics/state/load_positions.h"
+#include "wheelwright/mechanics/state/state.h"
 
 namespace wheelwright {
 
@@ -17,5 +17,12 @@ struct PositionSource {
 /// position i is the image of position n - i. (In the plane of azimuth 0, the image of position n - i lies a
 /// sector before position i.)
 std::vector<PositionSource> position_sources(const LoadPositions& solved, int n);
+
+/// The state of a shape with all positions solved, under the same load, from one in which some stand for
+/// their images. Fails as StateSolver::states() does.
+template <int dim>
+Expected<std::shared_ptr<const State<dim>>> on_all_positions(const StateSolver<dim>& solver,
+                                                             const LevelSet<dim>& psi,
+                                                             const State<dim>& state);
 
 }  // namespace wheelwright

@@ -35,13 +35,17 @@ FunctionalValue<dim> RatioOfMeans<dim>::evaluate(const StateSolver<dim>& solver,
                                                  const State<dim>& state, const Matrix& mean) const {
   const FunctionalValue<dim> numerator = numerator_->evaluate(solver, psi, state, mean),
                              denominator = denominator_->evaluate(solver, psi, state, mean);
+  const std::vector<double>& multiplicities = state.positions().multiplicities;
+  const double n_positions = std::accumulate(multiplicities.begin(), multiplicities.end(), 0.0);
   const auto total = [&](const FunctionalValue<dim>& x) {
-    return std::inner_product(x.by_position.begin(), x.by_position.end(),
-                              state.positions().multiplicities.begin(), 0.0);
+    if (x.over_positions) return n_positions * *x.over_positions;
+    return std::inner_product(x.by_position.begin(), x.by_position.end(), multiplicities.begin(), 0.0);
   };
   const double below = total(denominator), ratio = total(numerator) / below;
   FunctionalValue<dim> value{.over_positions = ratio};
-  const std::vector<double> up(state.positions().size(), 1 / below), down(up.size(), -ratio / below);
+  const double of_numerator = numerator.over_positions ? n_positions : 1;
+  const std::vector<double> up(state.positions().size(), of_numerator / below),
+      down(up.size(), -ratio / below);
   add(numerator.derivative, up, value.derivative);
   add(denominator.derivative, down, value.derivative);
   return value;

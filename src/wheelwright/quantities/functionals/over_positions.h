@@ -37,7 +37,8 @@ class FunctionOfPositions : public Functional<dim> {
   Function function_;
 };
 
-/// sum of a over the positions / sum of b: the mean stiffness is the mean force by the mean travel.
+/// mean of a over the positions / mean of b: the mean stiffness is the mean force by the mean travel. a may
+/// also be one value of all positions together.
 template <int dim>
 class RatioOfMeans : public Functional<dim> {
  public:

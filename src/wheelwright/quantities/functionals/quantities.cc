@@ -13,6 +13,7 @@
 #include "wheelwright/quantities/functionals/perimeter.h"
 #include "wheelwright/quantities/functionals/quotient.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
+#include "wheelwright/quantities/functionals/rolling_resistance.h"
 #include "wheelwright/quantities/functionals/shape_function.h"
 #include "wheelwright/quantities/functionals/strain_energy.h"
 #include "wheelwright/quantities/functionals/uniformity_annulus.h"
@@ -239,6 +240,34 @@ std::vector<QuantityRow> rim_rows() {
            .varies_with = {Input::travel}}};
 }
 
+/// What the losses of the material cost.
+std::vector<QuantityRow> loss_rows() {
+  constexpr auto resistance = []<int dim>(const QuantityContext<dim>& context) {
+    return std::make_shared<const RollingResistance<dim>>(context.solver.model(), context.part);
+  };
+  constexpr auto coefficient = []<int dim>(const QuantityContext<dim>& context) {
+    return std::make_shared<const RatioOfMeans<dim>>(
+        "rolling_resistance_coefficient",
+        std::make_shared<const RollingResistance<dim>>(context.solver.model()),
+        std::make_shared<const GroundForce<dim>>(RimWay::towards_ground));
+  };
+  return {{.name = "rolling_resistance",
+           .unit = UnitKind::force,
+           .meaning = "force that keeps the wheel rolling against the losses of its material",
+           .label = "rolling resistance",
+           .of = Positions::all,
+           .functional = resistance,
+           .needs = {Input::loss_factor},
+           .has_parts = true},
+          {.name = "rolling_resistance_coefficient",
+           .unit = UnitKind::ratio,
+           .meaning = "rolling resistance by the mean force of the wheel on the ground",
+           .label = "coefficient of rolling resistance",
+           .of = Positions::all,
+           .functional = coefficient,
+           .needs = {Input::loss_factor}}};
+}
+
 /// How the wheel varies while it rolls: the travel at a held load, the force at a held travel.
 std::vector<QuantityRow> variation_rows() {
   return {{.name = "run_out_harmonic",
@@ -293,8 +322,8 @@ std::vector<QuantityRow> outline_rows() {
 const std::vector<Quantity>& built_in_quantities() {
   static const std::vector<Quantity> all = [] {
     std::vector<Quantity> quantities;
-    for (const auto& rows :
-         {objective_rows(), measure_rows(), material_rows(), rim_rows(), variation_rows(), outline_rows()})
+    for (const auto& rows : {objective_rows(), measure_rows(), material_rows(), rim_rows(), loss_rows(),
+                             variation_rows(), outline_rows()})
       for (const QuantityRow& row : rows) quantities.emplace_back(row);
     return quantities;
   }();

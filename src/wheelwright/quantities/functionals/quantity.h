@@ -37,6 +37,7 @@ enum class Over {
 /// What a case may have or not.
 enum class Input {
   density,            ///< of the material
+  loss_factor,        ///< of the material
   load,               ///< a force on the rim
   travel,             ///< a prescribed travel of the rim in place of the load
   horizontal_force,   ///< on the rim

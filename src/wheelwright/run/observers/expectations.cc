@@ -8,6 +8,7 @@
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/mechanics/state/strain_peaks.h"
 #include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/quantities/analysis/all_positions.h"
 #include "wheelwright/run/study/bounded_functions.h"
 
 namespace wheelwright {
@@ -41,8 +42,16 @@ KnownNumber computed(const Quantity& quantity, const StateSolver<dim>& solver, c
   if (quantity->compares_with_mean) return std::string("runs compute it only as a term of the objective");
   const auto term = functional_of(quantity, quantity->usual, QuantityContext<dim>{solver});
   if (!term) return to_string(term.failure());
-  const FunctionalValue<dim> value = term->functional->evaluate(solver, shape, solution, {});
-  return term->weight * value.over_positions.value_or(value.of_shape);
+  const Functional<dim>& functional = *term->functional;
+  const auto value_at = [&](const State<dim>& state) {
+    const FunctionalValue<dim> value = functional.evaluate(solver, shape, state, {});
+    return term->weight * value.over_positions.value_or(value.of_shape);
+  };
+  if (functional.is_mirror_symmetric(MirrorPlane::azimuth) || !solution.positions().stand_for_images())
+    return value_at(solution);
+  const auto all = on_all_positions(solver, shape, solution);
+  if (!all) return to_string(all.failure());
+  return value_at(**all);
 }
 
 /// Peaks in the material that the quantity is about.

@@ -7,6 +7,7 @@
 #include "wheelwright/base/available_memory.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
+#include "wheelwright/quantities/functionals/rolling_resistance.h"
 #include "wheelwright/run/results/own_numbers.h"
 #include "wheelwright/run/study/bounded_functions.h"
 #include "wheelwright/run/study/problem_size.h"
@@ -17,7 +18,8 @@ namespace wheelwright {
 template <int dim>
 LoadPositions positions_of_results(const Study<dim>& study, const StateSolver<dim>& solver,
                                    const LevelSet<dim>& shape) {
-  return are_mirror_symmetric<dim>(study.functions, MirrorPlane::azimuth)
+  return are_mirror_symmetric<dim>(study.functions, MirrorPlane::azimuth) &&
+                 !has_loss_factors(solver.model().materials)
              ? distinct_positions(solver, study.load_cases, shape)
              : solver.all_positions();
 }

@@ -90,6 +90,15 @@ std::string contact_report(const Case& c) {
               fmt::format("{:.1f} of {:.4g} mm", cells_per_contact_patch(c), tread_cell_width(c) * 1e3));
 }
 
+/// How well the load positions resolve the rolling resistance.
+std::string losses_report(const Case& c) {
+  if (!has_loss_factor(c)) return "";
+  return line("rolling resistance",
+              fmt::format("load positions {:.3g} mm apart at the tread leave out about {:.2g} % of it",
+                          2 * std::numbers::pi * c.wheel.outer_radius / total_load_positions(c) * 1e3,
+                          100 * unresolved_losses(c)));
+}
+
 std::string time_report(const Case& c) {
   return line("time", fmt::format("about {:.2g} s for one shape on one core",
                                   estimated_seconds_in_3d(problem_size(c)))) +
@@ -216,6 +225,27 @@ std::vector<std::string> unequal_rows(const Case& c) {
                       name, radius, ratio, remedy)};
 }
 
+/// Where the numbers of the losses would be poor.
+std::vector<std::string> warnings_of_losses(const Case& c) {
+  constexpr double much = 0.05, little = 0.01, large_factor = 0.3;
+  std::vector<std::string> result;
+  if (!has_loss_factor(c)) return result;
+  const Case worst = std::ranges::max(single_load_cases(c), {}, unresolved_losses);
+  if (const double share = unresolved_losses(worst); share > much)
+    result.push_back(fmt::format(
+        "{} = {} leave out about {:.2g} % of the rolling resistance, near the contact, which is about {:.3g} "
+        "mm long; {} leave out {:g} % (wheelwright analyze has the option --positions)",
+        key_of(&Load::positions).path(), c.load.positions, 100 * share, 2e3 * likely_half_width(worst),
+        positions_for_losses(worst, little), 100 * little));
+  for (const PlacedMaterial& placed : placed_materials(c))
+    if (*placed.loss_factor() > large_factor)
+      result.push_back(fmt::format(
+          "{} has the loss factor {}: the rolling resistance is of first order in it, and a rough estimate "
+          "above {:g}",
+          placed.name, number_text(*placed.loss_factor()), large_factor));
+  return result;
+}
+
 std::string bounds_report(const Case& c) {
   std::string report;
   for (const Constraint& bound : c.constraints) {
@@ -239,7 +269,8 @@ std::string bounds_report(const Case& c) {
 
 std::string derived_report(const Case& c) {
   if (c.load.cases.empty())
-    return load_report(c) + material_report(c) + contact_report(c) + size_report(c) + bounds_report(c);
+    return load_report(c) + material_report(c) + contact_report(c) + losses_report(c) + size_report(c) +
+           bounds_report(c);
   std::string report;
   Case finest = c;
   finest.grid.tread_levels = tread_levels(c);
@@ -247,7 +278,7 @@ std::string derived_report(const Case& c) {
     const Case single = with_load_case(finest, static_cast<int>(k));
     report +=
         line("load case", fmt::format("{}, weight {:.6g}", c.load.cases[k].name, c.load.cases[k].weight)) +
-        load_report(single) + contact_report(single);
+        load_report(single) + contact_report(single) + losses_report(single);
   }
   return report + material_report(c) + size_report(c) + bounds_report(c);
 }
@@ -286,6 +317,7 @@ std::vector<std::string> warnings(const Case& c) {
     result.push_back("there are no holes, so no boundary can move");
   std::ranges::copy(holes_in_solid_layers(c), std::back_inserter(result));
   std::ranges::copy(unequal_rows(c), std::back_inserter(result));
+  std::ranges::copy(warnings_of_losses(c), std::back_inserter(result));
   if (const double cells = smallest_hole_in_cells(c);
       cells < least_cells_per_hole && c.optimizer.smoothing == 0)
     result.push_back(
