@@ -352,6 +352,7 @@ holes = "none"
 mass = 150
 
 [[shape.annulus]]
+outer_radius = 0.28
 
 [[shape.spoke]]
 kind = "curved"
@@ -383,13 +384,13 @@ density = 2700
 [[material.layer]]
 name = "cover"
 inner_radius = 0.048
-youngs_modulus = 4e6
+youngs_modulus = 6e6
 poissons_ratio = 0.49
 density = 1200
 holes = "none"
 
 [load]
-force = 3000
+force = 1200
 ground = "drum"
 ground_radius = 0.075
 
