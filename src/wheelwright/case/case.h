@@ -49,8 +49,20 @@ struct OrthotropicConstants {
   bool operator==(const OrthotropicConstants&) const = default;
 };
 
+/// What a material bears over many turns: FatigueStrength.
+struct FatigueConstants {
+  FatigueMeasure fatigue_measure = FatigueMeasure::none;
+  std::optional<double> fatigue_limit = {};            ///< [Pa, J/m^3]
+  std::optional<double> fatigue_strain = {};           ///< the limit of principal_strain
+  double fatigue_cycles = 1e6;                         ///< turns at the limit
+  std::optional<double> fatigue_exponent = {};         ///< of the curve of Woehler
+  std::optional<double> fatigue_pressure_factor = {};  ///< alpha of crossland and dang_van
+  std::optional<double> ultimate_strength = {};        ///< of goodman [Pa]
+  bool operator==(const FatigueConstants&) const = default;
+};
+
 /// What lies in no layer of the ring.
-struct RingMaterial : Material, OrthotropicConstants {
+struct RingMaterial : Material, OrthotropicConstants, FatigueConstants {
   bool operator==(const RingMaterial&) const = default;
 };
 
@@ -58,7 +70,7 @@ struct RingMaterial : Material, OrthotropicConstants {
 enum class LayerHoles { allowed, none };
 
 /// Everything between two radii, of another material than the rest of the ring.
-struct MaterialLayer : OrthotropicConstants {
+struct MaterialLayer : OrthotropicConstants, FatigueConstants {
   std::string name = {};
   std::optional<double> inner_radius = {};  ///< absent: the rim
   std::optional<double> outer_radius = {};  ///< absent: the tread

@@ -19,10 +19,26 @@ std::vector<std::size_t> outward(const Case& c) {
   return order;
 }
 
+std::optional<FatigueStrength> fatigue_strength(const FatigueConstants& given) {
+  const bool is_of_strain = given.fatigue_measure == FatigueMeasure::principal_strain;
+  const auto limit = is_of_strain ? given.fatigue_strain : given.fatigue_limit;
+  if (given.fatigue_measure == FatigueMeasure::none || !limit) return {};
+  return FatigueStrength{.measure = given.fatigue_measure,
+                         .limit = *limit,
+                         .cycles = given.fatigue_cycles,
+                         .exponent = given.fatigue_exponent,
+                         .pressure_factor = given.fatigue_pressure_factor.value_or(0),
+                         .ultimate_strength = given.ultimate_strength};
+}
+
 Material isotropic_material(const Case& c, const std::optional<std::size_t>& layer) {
-  if (!layer) return c.material;
-  const MaterialLayer& from = c.layers[*layer];
-  return {from.youngs_modulus, from.poissons_ratio, c.material.plane, from.density, from.loss_factor};
+  Material material = c.material;
+  if (layer) {
+    const MaterialLayer& from = c.layers[*layer];
+    material = {from.youngs_modulus, from.poissons_ratio, c.material.plane, from.density, from.loss_factor};
+  }
+  material.fatigue = fatigue_strength(fatigue_constants(c, layer));
+  return material;
 }
 
 std::variant<Material, OrthotropicMaterial> material_of(const Case& c,
@@ -59,7 +75,8 @@ std::optional<OrthotropicMaterial> orthotropic_material(const Case& c,
                              .shear_tz = given.shear_modulus_azimuthal_axial.value_or(g),
                              .plane = isotropic.plane,
                              .density = isotropic.density,
-                             .loss_factor = isotropic.loss_factor};
+                             .loss_factor = isotropic.loss_factor,
+                             .fatigue = isotropic.fatigue};
 }
 
 double PlacedMaterial::youngs_modulus() const {
@@ -76,6 +93,11 @@ std::optional<double> PlacedMaterial::density() const {
 
 std::optional<double> PlacedMaterial::loss_factor() const {
   return std::visit([](const auto& m) { return m.loss_factor; }, material);
+}
+
+std::optional<double> PlacedMaterial::fatigue_limit() const {
+  return std::visit([](const auto& m) { return m.fatigue ? std::optional(m.fatigue->limit) : std::nullopt; },
+                    material);
 }
 
 double PlacedMaterial::least_compliance() const {
@@ -110,6 +132,11 @@ std::vector<OrthotropicConstant> needed_constants(const Case& c) {
 const OrthotropicConstants& orthotropic_constants(const Case& c, const std::optional<std::size_t>& layer) {
   if (layer) return c.layers[*layer];
   return c.material;
+}
+
+const FatigueConstants& fatigue_constants(const Case& c, const std::optional<std::size_t>& layer) {
+  if (!layer) return c.material;
+  return c.layers[*layer];
 }
 
 CaseKey key_of_constant(const std::optional<std::size_t>& layer, OrthotropicConstant constant) {
@@ -218,6 +245,10 @@ bool has_density(const Case& c, const std::optional<PartOfRing>& part) {
 
 bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part) {
   return all_have(c, part, &PlacedMaterial::loss_factor);
+}
+
+bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part) {
+  return all_have(c, part, &PlacedMaterial::fatigue_limit);
 }
 
 PlacedMaterial tread_material(const Case& c) { return placed_materials(c).back(); }

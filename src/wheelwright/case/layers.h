@@ -25,8 +25,9 @@ struct PlacedMaterial {
   double youngs_modulus() const;
   /// E* of Hertz's theory [Pa].
   double contact_modulus() const;
-  std::optional<double> density() const;      ///< [kg/m^3]
-  std::optional<double> loss_factor() const;  ///< tan(delta)
+  std::optional<double> density() const;        ///< [kg/m^3]
+  std::optional<double> loss_factor() const;    ///< tan(delta)
+  std::optional<double> fatigue_limit() const;  ///< FatigueStrength::limit
   /// The least share of a unit compliance: near 0 elements lock. 1 - 2 nu of an isotropic material in plane
   /// strain.
   double least_compliance() const;
@@ -45,6 +46,15 @@ const OrthotropicConstants& orthotropic_constants(const Case& c, const std::opti
 
 /// The key of a constant of a layer, or of what lies in none.
 CaseKey key_of_constant(const std::optional<std::size_t>& layer, OrthotropicConstant constant);
+
+/// The constants of fatigue of a layer, or of what lies in none.
+const FatigueConstants& fatigue_constants(const Case& c, const std::optional<std::size_t>& layer);
+/// The key of a member that RingMaterial and MaterialLayer have from FatigueConstants.
+template <class Value>
+CaseKey key_of_fatigue(const std::optional<std::size_t>& layer, Value FatigueConstants::*constant) {
+  if (!layer) return key_of(static_cast<Value RingMaterial::*>(constant));
+  return key_of(static_cast<Value MaterialLayer::*>(constant), *layer);
+}
 
 /// The radii between which a layer of the case lies.
 struct LayerRadii {
@@ -97,6 +107,7 @@ bool has_density(const Case& c, const std::optional<PartOfRing>& part = {});
 
 /// The same of the loss factor.
 bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part = {});
+bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part = {});
 
 /// The material at the tread.
 PlacedMaterial tread_material(const Case& c);

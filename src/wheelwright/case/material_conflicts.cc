@@ -97,6 +97,39 @@ bool check_constants(const Case& c, const std::optional<std::size_t>& layer, Con
   return false;
 }
 
+/// A fatigue measure needs its constants; without one they have no effect.
+void check_fatigue(const Case& c, const PlacedMaterial& placed, Conflicts& found) {
+  using Constants = FatigueConstants;
+  using Constant = std::optional<double> Constants::*;
+  const Constants& given = fatigue_constants(c, placed.layer);
+  const auto key = [&](auto constant) { return key_of_fatigue(placed.layer, constant); };
+  const CaseKey measure = key(&Constants::fatigue_measure);
+  const bool is_of_strain = given.fatigue_measure == FatigueMeasure::principal_strain,
+             has_pressure = given.fatigue_measure == FatigueMeasure::crossland ||
+                            given.fatigue_measure == FatigueMeasure::dang_van,
+             has_mean = given.fatigue_measure == FatigueMeasure::goodman,
+             is_none = given.fatigue_measure == FatigueMeasure::none;
+  const std::pair<Constant, bool> needs[] = {{&Constants::fatigue_limit, !is_none && !is_of_strain},
+                                             {&Constants::fatigue_strain, is_of_strain},
+                                             {&Constants::fatigue_pressure_factor, has_pressure},
+                                             {&Constants::ultimate_strength, has_mean}};
+  for (const auto& [constant, is_needed] : needs) {
+    const CaseKey needed = key(constant);
+    if (is_needed && !(given.*constant))
+      found.push_back({{measure, needed},
+                       fmt::format("needs {}", needed.names.front()),
+                       fmt::format("add it, or use {} = \"none\"", measure.names.front())});
+    if (!is_needed && given.*constant)
+      found.push_back({{needed, measure},
+                       "without effect with this fatigue_measure",
+                       is_none ? "set fatigue_measure, or omit it" : "omit it"});
+  }
+  if (is_none && given.fatigue_exponent)
+    found.push_back({{key(&Constants::fatigue_exponent), measure},
+                     "without effect without a fatigue_measure",
+                     "set fatigue_measure, or omit it"});
+}
+
 /// Displacement elements of an orthotropic material are not mixed with a pressure.
 void check_locking(const Case& c, const PlacedMaterial& placed, Conflicts& found) {
   const double least = placed.least_compliance();
@@ -283,6 +316,7 @@ void material_conflicts(const Case& c, Conflicts& found) {
       check_compressibility(c, *placed.isotropic(), placed.poissons_ratio_key(), found);
     else if (check_constants(c, placed.layer, found))
       check_locking(c, placed, found);
+    check_fatigue(c, placed, found);
   }
   check_rows(c, found);
   check_cords(c, found);

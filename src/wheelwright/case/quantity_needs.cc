@@ -11,6 +11,8 @@ bool has(const Case& c, Input input, const std::optional<PartOfRing>& part) {
       return has_density(c, part);
     case Input::loss_factor:
       return has_loss_factor(c, part);
+    case Input::fatigue_limit:
+      return has_fatigue_limit(c, part);
     case Input::load:
       return !c.load.travel;
     case Input::travel:
@@ -32,6 +34,9 @@ Need need(const SingleLoad& single, Input input) {
     case Input::loss_factor:
       return {key_of(&Material::loss_factor),
               "the rolling resistance needs the loss factor of every material, 0 for one without losses"};
+    case Input::fatigue_limit:
+      return {key_of(&RingMaterial::fatigue_measure),
+              "fatigue needs the measure and the limit of every material"};
     case Input::load:
       return {single.key(&Load::travel), "the travel varies only under a load; here it is prescribed"};
     case Input::travel:
@@ -55,6 +60,9 @@ Constancy constancy_without(const SingleLoad& single, Input input) {
       return {key_of(&Material::density), "it is 0 without a density", "set material.density"};
     case Input::loss_factor:
       return {key_of(&Material::loss_factor), "it is 0 without a loss factor", "set material.loss_factor"};
+    case Input::fatigue_limit:
+      return {key_of(&RingMaterial::fatigue_measure), "it is 0 without a fatigue limit",
+              "set material.fatigue_measure and its limit"};
     case Input::load:
       return {single.key(&Load::travel), "it is the prescribed travel for every wheel",
               "set a load in place of load.travel"};

@@ -108,10 +108,49 @@ std::vector<Key<Struct>> orthotropic_keys() {
            .meaning = "G_tz: shear modulus in planes across the radius; only in 3D"}};
 }
 
-/// With the constants of an orthotropic material.
+/// What a material bears over many turns, as keys of Struct.
 template <class Struct>
-std::vector<Key<Struct>> with_orthotropic_keys(std::vector<Key<Struct>> keys) {
-  for (Key<Struct>& key : orthotropic_keys<Struct>()) keys.push_back(std::move(key));
+std::vector<Key<Struct>> fatigue_keys() {
+  const auto number = [](std::optional<double> Struct::*member, const Range& range, std::string_view absent) {
+    return OptionalNumberField<Struct>{member, range, absent};
+  };
+  return {
+      {.name = "fatigue_measure",
+       .field = choice<&Struct::fatigue_measure>(
+           {"none", "crossland", "dang_van", "goodman", "principal_strain", "strain_energy"}),
+       .meaning = "what of a turn's stresses or strains is compared with the fatigue limit: for metals "
+                  "crossland (amplitude of the root of J2, and alpha times the largest hydrostatic stress) "
+                  "or dang_van (largest shear stress about the mean, and alpha times the hydrostatic "
+                  "stress); for plastics goodman (amplitude of the signed von Mises stress, raised by its "
+                  "mean); for elastomers principal_strain or strain_energy, the largest ones"},
+      {.name = "fatigue_limit",
+       .unit = "Pa",
+       .field = number(&Struct::fatigue_limit, modulus, "fatigue is not computed"),
+       .meaning = "the measure that the material endures for fatigue_cycles; of strain_energy in J/m^3, "
+                  "which are Pa; of principal_strain it is fatigue_strain"},
+      {.name = "fatigue_strain",
+       .field = number(&Struct::fatigue_strain, above(0, 10), "fatigue is not computed"),
+       .meaning = "the principal strain that the material endures for fatigue_cycles"},
+      {.name = "fatigue_cycles",
+       .field = NumberField<Struct>{&Struct::fatigue_cycles, between(1, 1e12)},
+       .meaning = "turns at the limit"},
+      {.name = "fatigue_exponent",
+       .field = number(&Struct::fatigue_exponent, above(0, 100), "no life is shown"),
+       .meaning = "k of the life N = fatigue_cycles (limit / measure)^k in turns, the curve of Woehler"},
+      {.name = "fatigue_pressure_factor",
+       .field = number(&Struct::fatigue_pressure_factor, between(0, 10), "none"),
+       .meaning = "alpha of crossland and dang_van"},
+      {.name = "ultimate_strength",
+       .unit = "Pa",
+       .field = number(&Struct::ultimate_strength, modulus, "none"),
+       .meaning = "R_m of goodman"}};
+}
+
+/// With the constants of an orthotropic material and of fatigue.
+template <class Struct>
+std::vector<Key<Struct>> with_further_constants(std::vector<Key<Struct>> keys) {
+  for (auto& further : {orthotropic_keys<Struct>(), fatigue_keys<Struct>()})
+    keys.insert(keys.end(), further.begin(), further.end());
   return keys;
 }
 
@@ -132,7 +171,7 @@ const Section<RingMaterial>& material_section() {
       .name = "material",
       .meaning = "linear elasticity, isotropic or orthotropic with the axes radius, azimuth and axle",
       .in = [](Case& c) -> Struct& { return c.material; },
-      .keys = with_orthotropic_keys<Struct>(
+      .keys = with_further_constants<Struct>(
           {{.name = "youngs_modulus",
             .unit = "Pa",
             .field = NumberField<Struct>{&Struct::youngs_modulus, modulus},
@@ -171,7 +210,7 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
           "high in between",
       .in = [](Case& c) -> std::vector<MaterialLayer>& { return c.layers; },
       .example = example_of_a_layer(),
-      .keys = with_orthotropic_keys<MaterialLayer>(
+      .keys = with_further_constants<MaterialLayer>(
           {{.name = "name",
             .field = TextField<MaterialLayer>{&MaterialLayer::name, "its number"},
             .meaning = "a word of letters, digits, - and _, for messages and names of files, e.g. tyre"},

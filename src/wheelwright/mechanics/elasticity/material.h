@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "wheelwright/mechanics/elasticity/fatigue_strength.h"
+
 namespace wheelwright {
 
 /// The quantity that is zero along the axle when dim = 2.
@@ -20,14 +22,19 @@ struct Material {
   /// tan(delta): the energy that a cycle of harmonic strain loses, over 2 pi times its elastic energy at the
   /// largest strain; for the rolling resistance.
   std::optional<double> loss_factor = {};
+  std::optional<FatigueStrength> fatigue = {};  ///< what it bears over many turns
 
   /// The material that has the same in-plane stresses in plane strain: itself, or for plane stress E' = E (1
   /// + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).
   Material plane_strain_equivalent() const {
     if (plane == Plane::strain) return *this;
     const double nu = poissons_ratio;
-    return {youngs_modulus * (1 + 2 * nu) / ((1 + nu) * (1 + nu)), nu / (1 + nu), Plane::strain, density,
-            loss_factor};
+    return {youngs_modulus * (1 + 2 * nu) / ((1 + nu) * (1 + nu)),
+            nu / (1 + nu),
+            Plane::strain,
+            density,
+            loss_factor,
+            fatigue};
   }
 
   /// Lame's parameters of the law sigma = lambda tr(eps) I + 2 mu eps in the model's dimension [Pa]. In plane

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "wheelwright/mechanics/elasticity/fatigue_strength.h"
 #include "wheelwright/mechanics/elasticity/material.h"
 #include "wheelwright/mechanics/elasticity/orthotropic_material.h"
 #include "wheelwright/mechanics/elasticity/voigt.h"
@@ -63,6 +64,9 @@ class MaterialLaw {
 
   /// tan(delta) (Material::loss_factor), at least 0; needed for the rolling resistance. Of a linear law.
   virtual std::optional<double> loss_factor() const { return {}; }
+
+  /// What it bears over many turns; null if that is unknown. Of a linear law.
+  virtual const FatigueStrength* fatigue_strength() const { return nullptr; }
 
   /// The constants of isotropic linear elasticity; null for other laws. Elements without locking and
   /// derivatives of stresses with respect to small holes are known for isotropic materials only.

@@ -25,6 +25,9 @@ class OrthotropicLaw : public MaterialLaw<dim> {
   double contact_modulus() const override { return material_.contact_modulus(); }
   std::optional<double> density() const override { return material_.density; }
   std::optional<double> loss_factor() const override { return material_.loss_factor; }
+  const FatigueStrength* fatigue_strength() const override {
+    return material_.fatigue ? &*material_.fatigue : nullptr;
+  }
   const OrthotropicMaterial* orthotropic() const override { return &material_; }
 
  private:

@@ -24,6 +24,7 @@ struct OrthotropicMaterial {
   Plane plane = Plane::strain;             ///< must be strain when dim = 3
   std::optional<double> density = {};      ///< [kg/m^3]
   std::optional<double> loss_factor = {};  ///< tan(delta) of all moduli
+  std::optional<FatigueStrength> fatigue = {};
 
   /// The part of the compliance that is free of units and does not depend on the moduli: it has a unit
   /// diagonal, and -coupling beside it. Their squares are nu_ab nu_ba.

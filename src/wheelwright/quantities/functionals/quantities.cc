@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "wheelwright/quantities/functionals/fatigue.h"
 #include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/material_volume.h"
 #include "wheelwright/quantities/functionals/over_positions.h"
@@ -268,6 +269,23 @@ std::vector<QuantityRow> loss_rows() {
            .needs = {Input::loss_factor}}};
 }
 
+/// What the material bears over many turns.
+std::vector<QuantityRow> fatigue_rows() {
+  constexpr auto utilization = []<int dim>(const QuantityContext<dim>& context) {
+    return std::make_shared<const FatigueUtilization<dim>>(context.solver.model().materials, context.part);
+  };
+  return {{.name = "fatigue_utilization",
+           .unit = UnitKind::ratio,
+           .meaning = "largest fatigue measure of a turn by the fatigue limit of the material",
+           .label = "fatigue utilization",
+           .of = Positions::all,
+           .functional = utilization,
+           .needs = {Input::fatigue_limit},
+           .integrates_stresses = true,
+           .is_maximum = true,
+           .has_parts = true}};
+}
+
 /// How the wheel varies while it rolls: the travel at a held load, the force at a held travel.
 std::vector<QuantityRow> variation_rows() {
   return {{.name = "run_out_harmonic",
@@ -323,7 +341,7 @@ const std::vector<Quantity>& built_in_quantities() {
   static const std::vector<Quantity> all = [] {
     std::vector<Quantity> quantities;
     for (const auto& rows : {objective_rows(), measure_rows(), material_rows(), rim_rows(), loss_rows(),
-                             variation_rows(), outline_rows()})
+                             fatigue_rows(), variation_rows(), outline_rows()})
       for (const QuantityRow& row : rows) quantities.emplace_back(row);
     return quantities;
   }();

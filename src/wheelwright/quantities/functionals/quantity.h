@@ -38,6 +38,7 @@ enum class Over {
 enum class Input {
   density,            ///< of the material
   loss_factor,        ///< of the material
+  fatigue_limit,      ///< of the material
   load,               ///< a force on the rim
   travel,             ///< a prescribed travel of the rim in place of the load
   horizontal_force,   ///< on the rim

@@ -1,0 +1,151 @@
+#include "wheelwright/quantities/functionals/fatigue_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "wheelwright/quantities/functionals/smallest_ball.h"
+
+namespace wheelwright {
+namespace {
+
+using History = std::vector<SymmetricTensor>;
+using Measure = std::function<HistoryMeasure(const History&)>;
+
+constexpr double pi = std::numbers::pi;
+const double root3 = std::sqrt(3.0);
+
+const std::vector<std::pair<const char*, Measure>> measures{
+    {"largest_principal", [](const History& h) { return largest_principal(h); }},
+    {"crossland", [](const History& h) { return crossland(h, 0.3); }},
+    {"dang_van", [](const History& h) { return dang_van(h, 0.3); }},
+    {"goodman", [](const History& h) { return goodman(h, 30); }}};
+
+History random_history(unsigned seed, int n, double mean) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  History history(n);
+  for (SymmetricTensor& t : history)
+    for (int k = 0; k < 6; ++k) t[k] = normal(random) + (k < 3 ? mean : 0);
+  return history;
+}
+
+SymmetricTensor turned(const SymmetricTensor& t, const std::array<std::array<double, 3>, 3>& q) {
+  const double m[3][3] = {{t[0], t[5], t[4]}, {t[5], t[1], t[3]}, {t[4], t[3], t[2]}};
+  const auto entry = [&](int i, int j) {
+    double sum = 0;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) sum += q[i][a] * m[a][b] * q[j][b];
+    return sum;
+  };
+  return {entry(0, 0), entry(1, 1), entry(2, 2), entry(1, 2), entry(0, 2), entry(0, 1)};
+}
+
+TEST(PrincipalAxes, DiagonalizeATensor) {
+  for (const SymmetricTensor& t : random_history(1, 20, 0)) {
+    const auto values = principal_values(t);
+    const auto axes = principal_axes(t);
+    const SymmetricTensor diagonal = turned(t, axes);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(diagonal[k], values[k], 1e-12);
+    for (int k = 3; k < 6; ++k) EXPECT_NEAR(diagonal[k], 0, 1e-12);
+  }
+}
+
+/// Uniaxial stress m + a cos: sqrt(J2)_a = a / sqrt(3), p = (m + a) / 3; tau = a / 2 about the center m.
+TEST(FatigueMeasures, OfUniaxialStressAreThoseOfItsAmplitudeAndMean) {
+  History history;
+  const double a = 4, m = 2.5;
+  for (int j = 0; j < 24; ++j) history.push_back({m + a * std::cos(2 * pi * j / 24), 0, 0, 0, 0, 0});
+  EXPECT_NEAR(crossland(history, 0.3).value, a / root3 + 0.3 * (m + a) / 3, 1e-12);
+  EXPECT_NEAR(dang_van(history, 0.3).value, a / 2 + 0.3 * (m + a) / 3, 2e-8);  // a double eigenvalue
+  EXPECT_NEAR(goodman(history, 10).value, a / (1 - m / 10), 1e-12);
+  EXPECT_NEAR(largest_principal(history).value, m + a, 1e-12);
+}
+
+/// Under pressure the mean of a pulsating stress is negative, and does not help.
+TEST(FatigueMeasures, OfPulsatingPressureHaveNoGoodmanFactor) {
+  const History history{{0, 0, 0, 0, 0, 0}, {-6, 0, 0, 0, 0, 0}};
+  EXPECT_NEAR(goodman(history, 10).value, 3, 1e-12);
+}
+
+/// Torsion c cos: sqrt(J2)_a = c and tau = c without hydrostatic stress; a static shear is no amplitude.
+TEST(FatigueMeasures, OfTorsionDoNotDependOnItsMean) {
+  for (const double mean : {0.0, 7.0}) {
+    History history;
+    for (int j = 0; j < 24; ++j) history.push_back({0, 0, 0, 0, 0, mean + 3 * std::cos(2 * pi * j / 24)});
+    EXPECT_NEAR(crossland(history, 0.3).value, 3, 1e-12);
+    EXPECT_NEAR(dang_van(history, 0.3).value, 3, 1e-12);
+  }
+}
+
+/// A shear that rotates: out of phase tension and torsion of equal sqrt(J2) move on a circle about 0.
+TEST(FatigueMeasures, OfARotatingDeviatorAreItsRadius) {
+  History history;
+  for (int j = 0; j < 32; ++j) {
+    const double t = 2 * pi * j / 32;
+    history.push_back({2 * std::cos(t), -2 * std::cos(t), 0, 0, 0, 2 * std::sin(t)});
+  }
+  EXPECT_NEAR(crossland(history, 0.3).value, 2, 1e-12);
+  EXPECT_NEAR(dang_van(history, 0.3).value, 2, 1e-12);
+}
+
+TEST(FatigueMeasures, AreTheSameInEveryFrame) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const History history = random_history(seed, 12, 1);
+    const auto frame = principal_axes(random_history(seed + 50, 1, 0)[0]);
+    History seen;
+    for (const SymmetricTensor& t : history) seen.push_back(turned(t, frame));
+    for (const auto& [name, measure] : measures)
+      EXPECT_NEAR(measure(seen).value, measure(history).value, 1e-11) << name;
+  }
+}
+
+TEST(FatigueMeasures, HaveTheSlopesOfTheirDifferences) {
+  for (unsigned seed = 1; seed <= 20; ++seed)
+    for (const int n : {1, 2, 3, 12}) {
+      const History history = random_history(seed, n, 1), direction = random_history(seed + 99, n, 0);
+      for (const auto& [name, measure] : measures) {
+        double slope = 0;
+        for (const auto& [sample, by_tensor] : measure(history).slopes)
+          for (int k = 0; k < 6; ++k) slope += by_tensor[k] * direction[sample][k];
+        const auto at = [&](double h) {
+          History moved = history;
+          for (int j = 0; j < n; ++j)
+            for (int k = 0; k < 6; ++k) moved[j][k] += h * direction[j][k];
+          return measure(moved).value;
+        };
+        constexpr double h = 1e-6;
+        EXPECT_NEAR((at(h) - at(-h)) / (2 * h), slope, 2e-7 * (1 + std::abs(slope)))
+            << name << ", seed " << seed << ", " << n << " samples";
+      }
+    }
+}
+
+TEST(SmallestBall, ContainsAllPointsAndTouchesSome) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (const int n : {1, 2, 7, 60}) {
+    std::vector<SmallestBall::Point> points(n);
+    for (auto& point : points)
+      for (double& x : point) x = normal(random);
+    points.push_back(points.front());  // as symmetric histories have them twice
+    const SmallestBall ball(points);
+    double largest = 0;
+    for (const auto& point : points) {
+      double square = 0;
+      for (int k = 0; k < 5; ++k) square += std::pow(point[k] - ball.center()[k], 2);
+      largest = std::max(largest, std::sqrt(square));
+    }
+    EXPECT_NEAR(largest, ball.radius(), 1e-12);
+    // No other center is better: the slopes with respect to a common shift of all points add up to 0.
+    SmallestBall::Point sum{};
+    for (const auto& [point, slope] : ball.slopes_of_radius())
+      for (int k = 0; k < 5; ++k) sum[k] += slope[k];
+    for (const double x : sum) EXPECT_NEAR(x, 0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright
