@@ -17,7 +17,8 @@ enum class UnitKind {
   stiffness,
   torsional_stiffness,
   turns,
-  angle
+  angle,
+  distance
 };
 
 /// The unit of each kind. In 2D, energies, forces, torques, masses and stiffnesses are those of one
@@ -32,6 +33,7 @@ constexpr const char* unit(UnitKind kind) {
     case UnitKind::torque:
       return dim == 2 ? "N" : "N m";
     case UnitKind::length:
+    case UnitKind::distance:
       return "m";
     case UnitKind::stress:
       return "Pa";
@@ -64,7 +66,7 @@ constexpr double whole_width(int dimension, double width) { return dimension == 
 /// Whether numbers of this kind are those of one metre of width in 2D.
 constexpr bool is_per_width(UnitKind kind) {
   return kind != UnitKind::length && kind != UnitKind::stress && kind != UnitKind::ratio &&
-         kind != UnitKind::turns && kind != UnitKind::angle;
+         kind != UnitKind::turns && kind != UnitKind::angle && kind != UnitKind::distance;
 }
 
 /// The ending of keys of numbers of this kind on the whole width, e.g. "N_per_m"; empty for ratios.
@@ -104,6 +106,8 @@ constexpr ShownUnit shown_unit(UnitKind kind, int dimension) {
       return {unit(kind, dimension), 1};
     case UnitKind::length:
       return {"mm", 1e3};
+    case UnitKind::distance:
+      return {"km", 1e-3};
     case UnitKind::stress:
       return {"MPa", 1e-6};
     case UnitKind::ratio:

@@ -116,8 +116,11 @@ std::vector<Key<Struct>> fatigue_keys() {
   };
   return {
       {.name = "fatigue_measure",
-       .field = choice<&Struct::fatigue_measure>(
-           {"none", "crossland", "dang_van", "goodman", "principal_strain", "strain_energy"}),
+       .field = ChoiceField<Struct>{
+           {"none", "crossland", "dang_van", "goodman", "principal_strain", "strain_energy"},
+           [](const Struct& s) { return static_cast<int>(s.fatigue_measure); },
+           [](Struct& s, int i) { s.fatigue_measure = static_cast<FatigueMeasure>(i); },
+           [](const Struct& s) -> const void* { return &s.fatigue_measure; }},
        .meaning = "what of a turn's stresses or strains is compared with the fatigue limit: for metals "
                   "crossland (amplitude of the root of J2, and alpha times the largest hydrostatic stress) "
                   "or dang_van (largest shear stress about the mean, and alpha times the hydrostatic "

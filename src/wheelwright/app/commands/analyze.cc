@@ -47,6 +47,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   const std::string title = c.title.empty() ? wheel.name : c.title;
   RollingReport report{.title = fmt::format("{}, {}", title, wheel.which),
                        .width = c.wheel.width,
+                       .outer_radius = c.wheel.outer_radius,
                        .n_sectors = c.wheel.sectors,
                        .analysis = rolling_analysis(solver, solution),
                        .loads = {},
@@ -54,6 +55,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
                        .dimension = dim,
                        .finer = {}};
   report.losses = rolling_losses(solver, wheel.shape, solution);
+  report.fatigue = fatigue_results(solver, wheel.shape, solution);
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
   report.under_loads = under_loads<dim>(solution, report.loads);
   return report;
@@ -66,7 +68,8 @@ Expected<FinerReport, std::string> finer_report(const Expected<SolvedFinerShape<
   if (!finer) return finer.failure();
   return FinerReport{rolling_analysis(*finer->solver, *finer->states),
                      under_loads<dim>(*finer->states, loads), finer->refinement,
-                     rolling_losses<dim>(*finer->solver, finer->shape, *finer->states)};
+                     rolling_losses<dim>(*finer->solver, finer->shape, *finer->states),
+                     fatigue_results<dim>(*finer->solver, finer->shape, *finer->states)};
 }
 
 void write_plots(const std::filesystem::path& folder, const RollingReport& report) {

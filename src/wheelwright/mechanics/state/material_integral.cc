@@ -22,7 +22,8 @@ void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
         const auto place = model.grid.cell_position(cell);
         if (!covered.covers(model.grid, place[0])) return;
         auto quadrature = weighted_points(model.grid, model.degree, cell, points);
-        visit({std::move(quadrature.weights), by_load_case(displacement.strains(cell, quadrature.points)),
+        Matrix strains = by_load_case(displacement.strains(cell, quadrature.points));
+        visit({cell, std::move(quadrature.points), std::move(quadrature.weights), std::move(strains),
                model.grid.n_sectors, model.materials.in_row(model.grid, place[0])});
       });
 }

@@ -13,8 +13,10 @@ std::vector<double> material_integral(const StateSolver<dim>& solver, const Stat
 /// The points of the same quadrature in one cell.
 template <int dim>
 struct StrainedCell {
-  std::vector<double> weights;  ///< of the points [m^2, or m^3 when dim = 3]
-  Matrix strains;               ///< one row per load case, n_strains columns per point
+  int cell;
+  std::vector<Vec<dim>> points;  ///< of the unit cell
+  std::vector<double> weights;   ///< of the points [m^2, or m^3 when dim = 3]
+  Matrix strains;                ///< one row per load case, n_strains columns per point
   int n_sectors;
   const MaterialLaw<dim>& law;
 

@@ -105,6 +105,16 @@ Number of_losses(const DescribedWheel<dim>& wheel, const Value& value) {
   });
 }
 
+/// A value of the fatigue results, if they are known.
+template <int dim, class Value>
+Number of_fatigue(const DescribedWheel<dim>& wheel, const Value& value) {
+  return under_load(wheel, [&](const LoadedWheel<dim>& loaded) -> Number {
+    if (!loaded.fatigue) return {};
+    if (!*loaded.fatigue) return to_string(loaded.fatigue->failure());
+    return value(**loaded.fatigue);
+  });
+}
+
 template <int dim>
 Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const SolvedStates<dim>& states) {
@@ -112,7 +122,7 @@ Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const Le
   RollingAnalysis rolling = rolling_analysis(solver, **states);
   const auto deformation = deformation_size<dim>(solver, psi, **states, rolling.deformations);
   return LoadedWheel<dim>{shape_summary(solver, **states), std::move(rolling), deformation,
-                          rolling_losses(solver, psi, **states)};
+                          rolling_losses(solver, psi, **states), fatigue_results(solver, psi, **states)};
 }
 
 }  // namespace
@@ -300,6 +310,23 @@ std::vector<WheelNumber<dim>> numbers_of_losses() {
           })};
 }
 
+/// Of wheels whose materials have fatigue strengths.
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of_fatigue() {
+  using Wheel = DescribedWheel<dim>;
+  const auto life = [](const Wheel& w) {
+    return of_fatigue(w, [&](const FatigueResults& f) -> Number {
+      if (!f.worst.life) return {};
+      return *f.worst.life * 2 * std::numbers::pi * w.grid.outer_radius;
+    });
+  };
+  return {number<dim>("fatigue_utilization",
+                      [](const Wheel& w) {
+                        return of_fatigue(w, [](const FatigueResults& f) { return f.worst.utilization; });
+                      }),
+          {"fatigue life", UnitKind::distance, "fatigue_life_m", life, false, Converges::as_an_extreme}};
+}
+
 /// How far the wheel is from what linear elasticity assumes, besides its largest strain.
 template <int dim>
 std::vector<WheelNumber<dim>> numbers_of_deformation() {
@@ -346,7 +373,7 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
         number<dim>("mass", [](const Wheel& w) -> Number {
           return w.mass ? Number(*w.mass * width(w)) : std::nullopt;
         })};
-    for (const auto& more : {numbers_under_load<dim>(), numbers_of_losses<dim>(),
+    for (const auto& more : {numbers_under_load<dim>(), numbers_of_losses<dim>(), numbers_of_fatigue<dim>(),
                              numbers_of_deformation<dim>(), numbers_of_outline<dim>()})
       all.insert(all.end(), more.begin(), more.end());
     return all;

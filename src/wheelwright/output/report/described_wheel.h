@@ -14,6 +14,7 @@
 #include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
+#include "wheelwright/quantities/analysis/fatigue_results.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
@@ -27,7 +28,8 @@ struct LoadedWheel {
   ShapeSummary<dim> summary;
   RollingAnalysis rolling;
   DeformationSize deformation;
-  std::optional<Expected<RollingLosses>> losses = {};  ///< rolling_losses()
+  std::optional<Expected<RollingLosses>> losses = {};    ///< rolling_losses()
+  std::optional<Expected<FatigueResults>> fatigue = {};  ///< fatigue_results()
 };
 
 /// Measurements on the curves fitted to the edges of a shape. Nothing when dim = 3, where edges are not plane

@@ -317,6 +317,8 @@ std::string missing_lines(const RollingReport& report) {
       lines += fmt::format("not computed: {}: {}\n", q.name, to_string(q.variation.failure()));
   if (report.losses && !*report.losses)
     lines += fmt::format("not computed: rolling resistance: {}\n", to_string(report.losses->failure()));
+  if (report.fatigue && !*report.fatigue)
+    lines += fmt::format("not computed: fatigue: {}\n", to_string(report.fatigue->failure()));
   for (size_t k = 0; k < report.loads.size(); ++k)
     if (!report.under_loads[k])
       lines += fmt::format("not computed: load {:.6g} N: {}\n", report.loads[k] * forces(report),
@@ -446,6 +448,34 @@ std::string losses_line(const RollingReport& report) {
       found.beyond * forces(report));
 }
 
+/// Null if they are not known.
+const FatigueResults* fatigue(const std::optional<Expected<FatigueResults>>& known) {
+  return known && *known ? &**known : nullptr;
+}
+
+/// Nothing if fatigue is not known on the finer grid.
+std::optional<double> error_of_utilization(const RollingReport& report) {
+  const FatigueResults* on_finer = finer(report) ? fatigue(finer(report)->fatigue) : nullptr;
+  if (!on_finer) return {};
+  return discretization_error(fatigue(report.fatigue)->worst.utilization, on_finer->worst.utilization,
+                              finer(report)->refinement);
+}
+
+double kilometres(const RollingReport& report, double turns) {
+  return turns * 2 * std::numbers::pi * report.outer_radius / 1000;
+}
+
+std::string fatigue_line(const RollingReport& report) {
+  const FatigueResults::Worst& worst = fatigue(report.fatigue)->worst;
+  std::string line =
+      fmt::format("fatigue utilization {} %, at radius {:.1f} mm, azimuth {:.2f} deg",
+                  with_known_error(worst.utilization, error_of_utilization(report).value_or(NAN), 100),
+                  worst.place[0] * 1e3, worst.place[1] / degree);
+  if (worst.life)
+    line += fmt::format("; life {:.2g} turns, {:.2g} km", *worst.life, kilometres(report, *worst.life));
+  return line + "\n";
+}
+
 double mean_travel_under(const RollingReport& report, size_t load) {
   return travel_variation(*report.under_loads[load]).mean;
 }
@@ -552,6 +582,26 @@ Json losses_json(const RollingReport& report) {
   return json;
 }
 
+Json worst_json(const RollingReport& report, const FatigueResults::Worst& worst) {
+  Json json{{"utilization", worst.utilization},
+            {"place", {{"radius_m", worst.place[0]}, {"azimuth_rad", worst.place[1]}}}};
+  if (report.dimension == 3) json["place"]["z_m"] = worst.place[2];
+  if (worst.life && std::isfinite(*worst.life)) {
+    json["life_turns"] = *worst.life;
+    json["life_km"] = kilometres(report, *worst.life);
+  }
+  return json;
+}
+
+Json fatigue_json(const RollingReport& report) {
+  const FatigueResults& found = *fatigue(report.fatigue);
+  Json json = worst_json(report, found.worst);
+  for (size_t k = 0; k < found.by_layer.size(); ++k)
+    json["by_layer"][report.analysis.layers[k].name] = worst_json(report, found.by_layer[k]);
+  if (const auto error = error_of_utilization(report)) json["errors"] = {{"utilization", *error}};
+  return json;
+}
+
 Json loads_json(const RollingReport& report) {
   Json loads = Json::array();
   for (size_t k = 0; k < report.loads.size(); ++k) {
@@ -617,6 +667,7 @@ std::string rolling_table(const RollingReport& report) {
   if (!report.analysis.layers.empty()) table += layer_lines(report) + '\n';
   table += stress_line(report) + linear_theory_lines(report);
   if (losses(report.losses)) table += losses_line(report);
+  if (fatigue(report.fatigue)) table += fatigue_line(report);
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   if (report.accurate) table += '\n' + accuracy_table(*report.accurate);
@@ -651,6 +702,8 @@ std::string rolling_json(const RollingReport& report) {
   if (losses(report.losses)) json["rolling_resistance"] = losses_json(report);
   if (report.losses && !*report.losses)
     json["missing"]["rolling_resistance"] = to_string(report.losses->failure());
+  if (fatigue(report.fatigue)) json["fatigue"] = fatigue_json(report);
+  if (report.fatigue && !*report.fatigue) json["missing"]["fatigue"] = to_string(report.fatigue->failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
   if (report.accurate) json["accuracy"] = accuracy_json(*report.accurate);
   return json.dump(2) + '\n';

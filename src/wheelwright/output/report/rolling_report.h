@@ -6,6 +6,7 @@
 
 #include "wheelwright/output/report/accurate_numbers.h"
 #include "wheelwright/output/report/plot_svg.h"
+#include "wheelwright/quantities/analysis/fatigue_results.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 
@@ -17,12 +18,14 @@ struct FinerReport {
   std::vector<Expected<std::vector<ContactSummary>>> under_loads;
   double refinement;  ///< the factor by which its cells are smaller
   std::optional<Expected<RollingLosses>> losses = {};
+  std::optional<Expected<FatigueResults>> fatigue = {};
 };
 
 /// The analysis of one shape. Forces are shown on the whole width.
 struct RollingReport {
   std::string title;
-  double width;  ///< w_r [m]
+  double width;         ///< w_r [m]
+  double outer_radius;  ///< R_e [m]
   int n_sectors;
   RollingAnalysis analysis;
   std::vector<double> loads;  ///< as in the analysis, ascending; empty: none were requested
@@ -30,8 +33,9 @@ struct RollingReport {
   int dimension = 2;                                               ///< of the analysis
   /// Nothing: no errors are wanted; the reason if they cannot be estimated.
   std::optional<Expected<FinerReport, std::string>> finer = {};
-  std::optional<AccurateNumbers> accurate = {};        ///< if an accuracy was wanted
-  std::optional<Expected<RollingLosses>> losses = {};  ///< if the loss factors are known
+  std::optional<AccurateNumbers> accurate = {};          ///< if an accuracy was wanted
+  std::optional<Expected<RollingLosses>> losses = {};    ///< if the loss factors are known
+  std::optional<Expected<FatigueResults>> fatigue = {};  ///< if the fatigue strengths are known
 };
 
 /// For display: one line per load position, another one if there is friction or torque, variations in

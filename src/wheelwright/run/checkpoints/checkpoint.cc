@@ -115,8 +115,8 @@ std::vector<FunctionValue> read_functions(ByteReader& reader) {
     bounds.lower = reader.number();
     bounds.upper = reader.number();
     edge_gradient = reader.finite_numbers("the gradient of a function at the edges");
-    unit =
-        static_cast<UnitKind>(reader.integer(0, static_cast<int>(UnitKind::angle), "the unit of a function"));
+    unit = static_cast<UnitKind>(
+        reader.integer(0, static_cast<int>(UnitKind::distance), "the unit of a function"));
   });
 }
 

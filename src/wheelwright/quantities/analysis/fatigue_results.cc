@@ -1,0 +1,65 @@
+#include "wheelwright/quantities/analysis/fatigue_results.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "wheelwright/mechanics/state/material_integral.h"
+#include "wheelwright/quantities/analysis/all_positions.h"
+#include "wheelwright/quantities/functionals/fatigue.h"
+
+namespace wheelwright {
+namespace {
+
+using Worst = FatigueResults::Worst;
+
+template <int dim>
+Vec<3> place_in_body(const PolarGrid<dim>& grid, int cell, const Vec<dim>& xi) {
+  Vec<3> place{};
+  std::ranges::copy(grid.polar_point(grid.cell_position(cell), xi), place.begin());
+  return place;
+}
+
+template <int dim>
+std::vector<Worst> worst_of_layers(const StateSolver<dim>& solver, const State<dim>& state) {
+  const Materials<dim>& materials = solver.model().materials;
+  const PolarGrid<dim>& grid = solver.model().grid;
+  std::vector<Worst> worst(materials.layers().size(), {0, {}, {}});
+  for_each_cell<dim>(
+      solver, state, UtilizationPower<dim>(materials, 2, {}), [&](const StrainedCell<dim>& cell) {
+        Worst& of_layer = worst[materials.layer_at(grid.middle_of_row(grid.cell_position(cell.cell)[0]))];
+        for (int q = 0; q < cell.n_points(); ++q)
+          if (const double found = fatigue_utilization(cell.at(q)); found > of_layer.utilization)
+            of_layer = {found, {}, place_in_body<dim>(grid, cell.cell, cell.points[q])};
+      });
+  for (std::size_t k = 0; k < worst.size(); ++k)
+    worst[k].life = materials.layers()[k].law->fatigue_strength()->life(worst[k].utilization);
+  return worst;
+}
+
+/// Whether the material lasts longer at `b`; if no life is known, whether it is further from the limit.
+bool lasts_less(const Worst& a, const Worst& b) {
+  if (a.life && b.life && *a.life != *b.life) return *a.life < *b.life;
+  return a.utilization > b.utilization;
+}
+
+}  // namespace
+
+template <int dim>
+std::optional<Expected<FatigueResults>> fatigue_results(const StateSolver<dim>& solver,
+                                                        const LevelSet<dim>& psi, const State<dim>& state) {
+  if (!has_fatigue_strength(solver.model().materials)) return {};
+  if (state.positions().stand_for_images()) {
+    const auto all = on_all_positions(solver, psi, state);
+    if (!all) return all.failure();
+    return fatigue_results(solver, psi, **all);
+  }
+  auto of_layers = worst_of_layers(solver, state);
+  FatigueResults results{*std::ranges::min_element(of_layers, lasts_less), {}};
+  if (of_layers.size() > 1) results.by_layer = std::move(of_layers);
+  return results;
+}
+
+template decltype(fatigue_results<2>) fatigue_results<2>;
+template decltype(fatigue_results<3>) fatigue_results<3>;
+
+}  // namespace wheelwright
