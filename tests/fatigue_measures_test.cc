@@ -1,4 +1,4 @@
-#include "wheelwright/quantities/functionals/fatigue_measures.h"
+#include "wheelwright/mechanics/elasticity/fatigue_measures.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "wheelwright/quantities/functionals/smallest_ball.h"
+#include "wheelwright/mechanics/elasticity/smallest_ball.h"
 
 namespace wheelwright {
 namespace {

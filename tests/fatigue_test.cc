@@ -11,7 +11,7 @@
 #include "wheelwright/mechanics/elasticity/orthotropic_law.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
 #include "wheelwright/quantities/analysis/fatigue_results.h"
-#include "wheelwright/quantities/functionals/peak_von_mises.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {
@@ -199,7 +199,8 @@ TEST(Fatigue, FollowsTheCurveOfWoehler) {
     FatigueResults of_load[2];
     for (const int doubled : {0, 1}) {
       auto model = testing::paper_model(14, 192);
-      model.contact.with = Counterpart::ring;
+      model.contact.counterpart = Counterpart::ring;
+      model.contact_points = 3;
       model.n_positions = 2;
       model.load = 1000 << doubled;
       model.materials = tired(measure);

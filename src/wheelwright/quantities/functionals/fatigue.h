@@ -1,7 +1,7 @@
 #pragma once
 
+#include "wheelwright/mechanics/elasticity/fatigue_measures.h"
 #include "wheelwright/mechanics/state/functional_derivative.h"
-#include "wheelwright/quantities/functionals/fatigue_measures.h"
 #include "wheelwright/quantities/functionals/functional.h"
 #include "wheelwright/quantities/functionals/part_of_ring.h"
 #include "wheelwright/quantities/functionals/peak_norm.h"

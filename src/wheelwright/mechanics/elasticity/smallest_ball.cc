@@ -1,4 +1,4 @@
-#include "wheelwright/quantities/functionals/smallest_ball.h"
+#include "wheelwright/mechanics/elasticity/smallest_ball.h"
 
 #include <CGAL/Min_sphere_of_spheres_d.h>
 

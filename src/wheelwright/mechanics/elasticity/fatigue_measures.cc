@@ -1,9 +1,9 @@
-#include "wheelwright/quantities/functionals/fatigue_measures.h"
+#include "wheelwright/mechanics/elasticity/fatigue_measures.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/quantities/functionals/smallest_ball.h"
+#include "wheelwright/mechanics/elasticity/smallest_ball.h"
 
 namespace wheelwright {
 namespace {
