@@ -10,33 +10,51 @@ namespace wheelwright {
 // Measures of the history of stresses or strains of a material point over a turn. None depends on the order
 // of the samples, at least one; each is the same in every frame. A turn is the cycle: the wheel repeats it,
 // so that no cycles need to be counted (rainflow).
+//
+// value(history) is the measure. The largest of samples(history), one value per sample, is near it, by a few
+// per cent at most, and depends smoothly on the history, unlike maxima and eigenvalues. slopes(history,
+// factors) is the derivative of sum_j factor_j samples_j with respect to every tensor, of which a component
+// beside the diagonal stands for two. Factors that are 0 cost little.
 
-/// The measure and its derivatives with respect to the samples on which it depends.
-struct HistoryMeasure {
-  double value = 0;
-  struct Slope {
-    int sample;
-    SymmetricTensor by_tensor;  ///< a component beside the diagonal stands for two
-  };
-  std::vector<Slope> slopes = {};
+using TensorHistory = std::span<const SymmetricTensor>;
+
+/// The largest eigenvalue of the strains; that of a sample as the norm of exponent 16 of the positive ones.
+struct LargestPrincipal {
+  double value(TensorHistory strains) const;
+  std::vector<double> samples(TensorHistory strains) const;
+  std::vector<SymmetricTensor> slopes(TensorHistory strains, std::span<const double> factors) const;
 };
-
-/// The largest eigenvalue of the strains.
-HistoryMeasure largest_principal(std::span<const SymmetricTensor> strains);
 
 /// sqrt(J2)_a + alpha max p of stresses [Pa] (B. Crossland, Proc. Int. Conf. Fatigue of Metals, 1956): the
 /// radius of the smallest ball around the path of the stress deviators s, measured by sqrt(s:s / 2), and the
 /// largest hydrostatic stress p = tr(sigma) / 3.
-HistoryMeasure crossland(std::span<const SymmetricTensor> stresses, double pressure_factor);
+struct Crossland {
+  double pressure_factor;  ///< alpha
+  double value(TensorHistory stresses) const;
+  std::vector<double> samples(TensorHistory stresses) const;
+  std::vector<SymmetricTensor> slopes(TensorHistory stresses, std::span<const double> factors) const;
+};
 
 /// max (tau + alpha p) of stresses [Pa] (K. Dang Van, ASTM STP 1191, 1993): tau is the largest shear stress
-/// of s
-/// - s*, with s* the center of that ball, to which the material shakes down.
-HistoryMeasure dang_van(std::span<const SymmetricTensor> stresses, double pressure_factor);
+/// of s - s*, with s* the center of that ball, to which the material shakes down; that of a sample is
+/// Hosford's of exponent 16, half of (sum of (e_i - e_k)^16 / 2)^(1/16) over the pairs of eigenvalues.
+struct DangVan {
+  double pressure_factor;  ///< alpha
+  double value(TensorHistory stresses) const;
+  std::vector<double> samples(TensorHistory stresses) const;
+  std::vector<SymmetricTensor> slopes(TensorHistory stresses, std::span<const double> factors) const;
+};
 
-/// a / (1 - m / R_m) of stresses [Pa], with the amplitude a and the mean m >= 0 of the von Mises stress with
-/// the sign of the trace (J. Goodman, 1899), and a where m < 0. R_m: `ultimate_strength` [Pa]; means above
-/// 0.999 R_m count as that.
-HistoryMeasure goodman(std::span<const SymmetricTensor> stresses, double ultimate_strength);
+/// a / (1 - m / R_m) of stresses [Pa] (J. Goodman, 1899), and a where m < 0, with the von Mises stress a =
+/// sqrt(3 J2)_a of the amplitude and the mean m of the largest and the smallest trace: amplitude and mean of
+/// a uniaxial stress. (The von Mises stress with the sign of the trace, which is used as well, jumps where
+/// the trace vanishes, and has half of the amplitude there.) Means above 0.999 R_m count as that. The samples
+/// all have the measure of a smooth maximum and minimum of the trace.
+struct Goodman {
+  double ultimate_strength;  ///< R_m [Pa]
+  double value(TensorHistory stresses) const;
+  std::vector<double> samples(TensorHistory stresses) const;
+  std::vector<SymmetricTensor> slopes(TensorHistory stresses, std::span<const double> factors) const;
+};
 
 }  // namespace wheelwright

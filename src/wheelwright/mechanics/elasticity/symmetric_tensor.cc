@@ -1,10 +1,12 @@
 #include "wheelwright/mechanics/elasticity/symmetric_tensor.h"
 
-#include <lapacke.h>
-
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+
+// Needs <complex> before it.
+#include <lapacke.h>
 
 namespace wheelwright {
 

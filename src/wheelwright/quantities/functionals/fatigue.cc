@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "wheelwright/mechanics/elasticity/fatigue_measures.h"
 #include "wheelwright/mechanics/state/material_integral.h"
 
 namespace wheelwright {
@@ -56,27 +57,10 @@ class History {
     return result;
   }
 
-  Voigt<dim> stress(int load_case) const {
-    Voigt<dim> result;
-    for (int k = 0; k < n_strains<dim>; ++k) result[k] = stresses_(load_case, k);
-    return result;
-  }
-
  private:
   const StrainsAtPoint<dim>& point_;
   Matrix stresses_;
   std::vector<double> axial_stresses_, axial_strains_;
-};
-
-/// A measure and its derivatives with respect to the strains of some load cases.
-template <int dim>
-struct PointMeasure {
-  double value = 0;
-  struct Slope {
-    int load_case;
-    Voigt<dim> by_strain;
-  };
-  std::vector<Slope> slopes = {};
 };
 
 template <int dim>
@@ -86,87 +70,73 @@ Voigt<dim> unit_strain(int component) {
   return strain;
 }
 
-/// Stress and strain along the axle under a strain, of a linear law when dim = 2.
+/// The tensors of stress and strain of a linear law under a unit of every component of the strain.
 template <int dim>
-std::pair<double, double> along_axle(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
-  double stress = 0, axial = 0;
-  if (dim == 2) law.along_axle(one_strain<dim>(strain), {&stress, 1}, {&axial, 1});
-  return {stress, axial};
-}
-
-/// From derivatives with respect to stresses. The laws of rolling wheels are linear.
-template <int dim>
-PointMeasure<dim> of_stresses(const MaterialLaw<dim>& law, const HistoryMeasure& measure) {
-  std::array<SymmetricTensor, n_strains<dim>> by_component;
+std::array<SymmetricTensor, n_strains<dim>> unit_tensors(const MaterialLaw<dim>& law, bool of_stress) {
+  std::array<SymmetricTensor, n_strains<dim>> result;
   for (int k = 0; k < n_strains<dim>; ++k) {
     const Voigt<dim> unit = unit_strain<dim>(k);
-    by_component[k] = tensor<dim>(stress(law, unit), along_axle(law, unit).first, 1);
-  }
-  PointMeasure<dim> result{measure.value};
-  for (const auto& [load_case, by_tensor] : measure.slopes) {
-    Voigt<dim> slope;
-    for (int k = 0; k < n_strains<dim>; ++k)
-      slope[k] = std::inner_product(by_tensor.begin(), by_tensor.end(), by_component[k].begin(), 0.0);
-    result.slopes.push_back({load_case, slope});
+    double stress_along = 0, strain_along = 0;
+    if (dim == 2) law.along_axle(one_strain<dim>(unit), {&stress_along, 1}, {&strain_along, 1});
+    result[k] =
+        of_stress ? tensor<dim>(stress(law, unit), stress_along, 1) : tensor<dim>(unit, strain_along, 0.5);
   }
   return result;
 }
 
-/// From derivatives with respect to strains.
-template <int dim>
-PointMeasure<dim> of_strains(const MaterialLaw<dim>& law, const HistoryMeasure& measure) {
-  PointMeasure<dim> result{measure.value};
-  for (const auto& [load_case, by_tensor] : measure.slopes) {
-    Voigt<dim> slope;
-    for (int k = 0; k < n_strains<dim>; ++k) {
-      const Voigt<dim> unit = unit_strain<dim>(k);
-      const SymmetricTensor moved = tensor<dim>(unit, along_axle(law, unit).second, 0.5);
-      slope[k] = std::inner_product(by_tensor.begin(), by_tensor.end(), moved.begin(), 0.0);
-    }
-    result.slopes.push_back({load_case, slope});
-  }
-  return result;
-}
-
-template <int dim>
-PointMeasure<dim> largest_energy(const StrainsAtPoint<dim>& point, const History<dim>& history) {
-  std::vector<double> energies(point.n_cases());
-  point.law.energy_density(point.strains, energies);
-  const auto at = static_cast<int>(std::ranges::max_element(energies) - energies.begin());
-  return {energies[at], {{at, history.stress(at)}}};
-}
-
-template <int dim>
-PointMeasure<dim> measure_of(const StrainsAtPoint<dim>& point, const FatigueStrength& strength) {
+/// Calls visit(measure, tensors, unit_tensors) with a measure of stresses or strains.
+template <int dim, class Visit>
+void with_measure(const StrainsAtPoint<dim>& point, const FatigueStrength& strength, Visit visit) {
   const History<dim> history(point);
   switch (strength.measure) {
     case FatigueMeasure::crossland:
-      return of_stresses<dim>(point.law, crossland(history.stresses(), strength.pressure_factor));
+      return visit(Crossland{strength.pressure_factor}, history.stresses(), true);
     case FatigueMeasure::dang_van:
-      return of_stresses<dim>(point.law, dang_van(history.stresses(), strength.pressure_factor));
+      return visit(DangVan{strength.pressure_factor}, history.stresses(), true);
     case FatigueMeasure::goodman:
-      return of_stresses<dim>(point.law,
-                              goodman(history.stresses(), strength.ultimate_strength.value_or(1e300)));
+      return visit(Goodman{strength.ultimate_strength.value_or(INFINITY)}, history.stresses(), true);
     case FatigueMeasure::principal_strain:
-      return of_strains<dim>(point.law, largest_principal(history.strains()));
-    case FatigueMeasure::strain_energy:
-      return largest_energy(point, history);
-    case FatigueMeasure::none:
-      break;
+      return visit(LargestPrincipal(), history.strains(), false);
+    default:
+      return;
   }
-  return {};
 }
 
+const FatigueStrength* strength_of_energy(const FatigueStrength& strength) {
+  return strength.measure == FatigueMeasure::strain_energy ? &strength : nullptr;
+}
+
+/// Samples of the utilization, at least 0.
 template <int dim>
-PointMeasure<dim> utilization(const StrainsAtPoint<dim>& point) {
-  const FatigueStrength* strength = point.law.fatigue_strength();
-  if (!strength || strength->measure == FatigueMeasure::none) return {};
-  PointMeasure<dim> result = measure_of(point, *strength);
-  if (result.value <= 0) return {};
-  result.value /= strength->limit;
-  for (auto& [load_case, by_strain] : result.slopes)
-    for (double& x : by_strain) x /= strength->limit;
-  return result;
+void utilization_of_samples(const StrainsAtPoint<dim>& point, const FatigueStrength& strength,
+                            std::span<double> values) {
+  if (strength_of_energy(strength))
+    point.law.energy_density(point.strains, values);
+  else
+    with_measure(point, strength, [&](const auto& measure, const auto& tensors, bool) {
+      std::ranges::copy(measure.samples(tensors), values.begin());
+    });
+  for (double& value : values) value = std::max(0.0, value / strength.limit);
+}
+
+/// The derivative of sum_j factor_j u_j with respect to the strains, u the samples of the utilization.
+template <int dim>
+void add_slopes(const StrainsAtPoint<dim>& point, const FatigueStrength& strength,
+                std::vector<double> factors, const StressRows<dim>& slopes) {
+  for (double& factor : factors) factor /= strength.limit;
+  if (strength_of_energy(strength)) {
+    point.law.stress(point.strains, slopes);
+    for (int k = 0; k < n_strains<dim>; ++k)
+      for (std::size_t j = 0; j < factors.size(); ++j) slopes[k][j] *= factors[j];
+    return;
+  }
+  with_measure(point, strength, [&](const auto& measure, const auto& tensors, bool is_of_stress) {
+    const auto by_tensor = measure.slopes(tensors, factors);
+    const auto units = unit_tensors(point.law, is_of_stress);
+    for (int k = 0; k < n_strains<dim>; ++k)
+      for (std::size_t j = 0; j < factors.size(); ++j)
+        slopes[k][j] = std::inner_product(by_tensor[j].begin(), by_tensor[j].end(), units[k].begin(), 0.0);
+  });
 }
 
 }  // namespace
@@ -179,23 +149,44 @@ bool has_fatigue_strength(const Materials<dim>& materials) {
 
 template <int dim>
 double fatigue_utilization(const StrainsAtPoint<dim>& point) {
-  return utilization(point).value;
+  const FatigueStrength* strength = point.law.fatigue_strength();
+  if (!strength) return 0;
+  if (strength_of_energy(*strength)) {
+    std::vector<double> values(point.n_cases());
+    utilization_of_samples(point, *strength, values);
+    return std::ranges::max(values);
+  }
+  double value = 0;
+  with_measure(point, *strength, [&](const auto& measure, const auto& tensors, bool) {
+    value = std::max(0.0, measure.value(tensors) / strength->limit);
+  });
+  return value;
 }
 
 template <int dim>
 void UtilizationPower<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
-  std::ranges::fill(values, std::pow(utilization(point).value, exponent_) / point.n_cases());
+  std::ranges::fill(values, 0.0);
+  const FatigueStrength* strength = point.law.fatigue_strength();
+  if (!strength) return;
+  utilization_of_samples(point, *strength, values);
+  for (double& value : values) value = std::pow(value, exponent_);
 }
 
 template <int dim>
 void UtilizationPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
                                    const StressRows<dim>& slopes) const {
   for (const auto& row : slopes) std::ranges::fill(row, 0.0);
-  const PointMeasure<dim> of_point = utilization(point);
-  const double mean_factor = std::accumulate(factors.begin(), factors.end(), 0.0) / point.n_cases();
-  const double slope = mean_factor * exponent_ * std::pow(of_point.value, exponent_ - 1);
-  for (const auto& [load_case, by_strain] : of_point.slopes)
-    for (int k = 0; k < n_strains<dim>; ++k) slopes[k][load_case] += slope * by_strain[k];
+  const FatigueStrength* strength = point.law.fatigue_strength();
+  if (!strength) return;
+  constexpr double negligible = 1e-16;  // of the largest share
+  std::vector<double> shares(point.n_cases());
+  utilization_of_samples(point, *strength, shares);
+  for (int j = 0; j < point.n_cases(); ++j)
+    shares[j] = factors[j] * exponent_ * std::pow(shares[j], exponent_ - 1);
+  const double least = negligible * std::ranges::max(shares);
+  for (double& share : shares)
+    if (std::abs(share) < least) share = 0;
+  add_slopes(point, *strength, std::move(shares), slopes);
 }
 
 template <int dim>
@@ -208,10 +199,11 @@ FunctionalValue<dim> FatigueUtilization<dim>::evaluate(const StateSolver<dim>& s
                                                        const State<dim>& state, const Matrix&) const {
   double integral = 0, peak = 0;
   for_each_cell<dim>(solver, state, power_, [&](const StrainedCell<dim>& cell) {
+    std::vector<double> powers(cell.strains.rows());
     for (int q = 0; q < cell.n_points(); ++q) {
-      const double value = fatigue_utilization(cell.at(q));
-      peak = std::max(peak, value);
-      integral += cell.weights[q] * std::pow(value, norm_.exponent);
+      peak = std::max(peak, fatigue_utilization(cell.at(q)));
+      power_.densities(cell.at(q), powers);
+      integral += cell.weights[q] * std::accumulate(powers.begin(), powers.end(), 0.0);
     }
   });
   FunctionalValue<dim> value;

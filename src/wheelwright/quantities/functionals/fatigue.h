@@ -1,6 +1,5 @@
 #pragma once
 
-#include "wheelwright/mechanics/elasticity/fatigue_measures.h"
 #include "wheelwright/mechanics/state/functional_derivative.h"
 #include "wheelwright/quantities/functionals/functional.h"
 #include "wheelwright/quantities/functionals/part_of_ring.h"
@@ -20,7 +19,7 @@ bool has_fatigue_strength(const Materials<dim>& materials);
 template <int dim>
 double fatigue_utilization(const StrainsAtPoint<dim>& point);
 
-/// A power of the utilization. Its load cases share it equally.
+/// A power of the samples of the utilization, one per load case, the largest of which is the utilization.
 template <int dim>
 class UtilizationPower : public MaterialDensity<dim> {
  public:
@@ -38,8 +37,8 @@ class UtilizationPower : public MaterialDensity<dim> {
   std::optional<PartOfRing> part_;
 };
 
-/// The largest utilization in the whole ring, or in a part of it: a p-norm over the material, as the peak von
-/// Mises stress.
+/// The largest utilization in the whole ring, or in a part of it: a p-norm over the material and the turn, as
+/// the peak von Mises stress.
 template <int dim>
 class FatigueUtilization : public Functional<dim> {
  public:
