@@ -10,6 +10,7 @@
 #include <complex>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 #include "tests/support.h"
 #include "wheelwright/base/periodic.h"
@@ -431,6 +432,29 @@ TEST(RollingResistance, OfARingWithoutHolesIsExact) {
   }
   std::printf("%.9f %.9f beyond %.3g %.3g\n", values[0], values[1], beyond[0], beyond[1]);
   EXPECT_LT(std::abs(values[1] - values[0]), beyond[0]);
+}
+
+/// F / (P tan(delta)) of a disc on a pin, relative to that of a half-plane under Hertz's pressure, 8 / (3 pi)
+/// a / R.
+double by_half_plane(double half_width_by_radius, int levels, int n_positions) {
+  RollingModel<2> model;
+  model.grid = {0.01, 0.34, 0.12, 384, {28, 1}};
+  const Material material = lossy(1, Plane::strain, 0.3);
+  model.materials = material;
+  const double a = half_width_by_radius * 0.34;
+  model.load = pi * material.contact_modulus() * a * a / (4 * 0.34);
+  model.tread.levels = levels;
+  model.n_positions = n_positions;
+  return of_full_ring(model).coefficient / (8 / (3 * pi) * half_width_by_radius);
+}
+
+TEST(RollingResistance, OfALargeDiscIsThatOfAHalfPlane) {
+  for (const auto& [width, levels, positions] :
+       {std::tuple{0.02, 3, 3}, {0.01, 4, 3}, {0.01, 4, 6}, {0.005, 5, 6}}) {
+    const double ratio = by_half_plane(width, levels, positions);
+    std::printf("%g %d %d: %.6f\n", width, levels, positions, ratio);
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace
