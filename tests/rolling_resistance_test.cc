@@ -13,6 +13,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/base/periodic.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
 #include "wheelwright/mechanics/state/turn_harmonics.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
@@ -435,6 +436,18 @@ TEST(RollingResistance, OfARingWithoutHolesIsExact) {
     }
   }
   EXPECT_NEAR(losses.back().coefficient, exact, 1e-3 * exact);
+  // What check says without solving.
+  Case c;
+  for (const int k : {0, 1}) {
+    c.load.positions = 24 << k;
+    const double missing = 1 - losses[k].coefficient / exact;
+    EXPECT_GT(unresolved_losses(c), missing);
+    EXPECT_LT(unresolved_losses(c), 2 * missing);
+  }
+  c.load.positions = positions_for_losses(c, 0.01);
+  EXPECT_LE(unresolved_losses(c), 0.01);
+  --c.load.positions;
+  EXPECT_GT(unresolved_losses(c), 0.01);
 }
 
 /// F / (P tan(delta)) of a disc on a pin, relative to that of a half-plane under Hertz's pressure, 8 / (3 pi)
