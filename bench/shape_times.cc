@@ -1,6 +1,7 @@
 /// Solves one shape of the paper's 16-hole wheel, with the paper's ghost penalty (81) and xi = 1e-3, in all
 /// load positions, mirror images too, and prints answers and times as JSON: strain energy and rim
-/// displacement of every load position, and the phases of the fastest repetition.
+/// displacement of every load position, and the phases of the fastest repetition. The function that is
+/// differentiated is the strain energy, or the rolling resistance.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +14,7 @@
 #include "unavoidable_work.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/process_settings.h"
+#include "wheelwright/quantities/functionals/rolling_resistance.h"
 
 namespace wheelwright::bench {
 namespace {
@@ -35,11 +37,16 @@ std::string to_json(int n_unknowns, const State<2>& states, const std::vector<Ph
                      fmt::join(positions, ",\n  "), fmt::join(seconds, ", "));
 }
 
-int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
+int run(int radial_cells, int angular_cells, int n_positions, int repetitions, bool of_resistance) {
   auto model = testing::paper_model(radial_cells, angular_cells);
   model.ghost = {GhostPenaltyKind::paper, 1e-3};
   model.dilatation = DilatationKind::pointwise;
   model.n_positions = n_positions;
+  if (of_resistance) {
+    Material material = *model.materials.at_tread().isotropic();
+    material.loss_factor = 0.1;
+    model.materials = material;
+  }
   const auto problem = RollingProblem<2>::create(model);
   if (!problem) {
     fmt::print(stderr, "{}\n", problem.failure().detail);
@@ -47,7 +54,9 @@ int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
   }
   const auto psi = testing::paper_holes(model.grid);
   std::vector<PhaseTime> fastest;
-  const ShapeFunction<2> function = objective(testing::strain_energy_alone());
+  const ShapeFunction<2> function =
+      objective(of_resistance ? WeightedSum<2>{{1, std::make_shared<RollingResistance<2>>(model)}}
+                              : testing::strain_energy_alone());
   std::shared_ptr<const State<2>> states;
   for (int i = 0; i < repetitions; ++i) {
     const auto solved = testing::all_states<2>(*problem, psi);
@@ -71,10 +80,12 @@ int main(int count, char** arguments) {
   wheelwright::restart_with_blas_settings(arguments);
   wheelwright::keep_freed_memory();
   const wheelwright::ThreadLimit one_thread(1);
-  if (count != 5) {
-    fmt::print(stderr, "usage: {} RADIAL_CELLS ANGULAR_CELLS POSITIONS REPETITIONS\n", arguments[0]);
+  const bool of_resistance = count == 6 && arguments[5] == std::string("resistance");
+  if (count != 5 && !of_resistance) {
+    fmt::print(stderr, "usage: {} RADIAL_CELLS ANGULAR_CELLS POSITIONS REPETITIONS [resistance]\n",
+               arguments[0]);
     return 2;
   }
   return wheelwright::bench::run(std::atoi(arguments[1]), std::atoi(arguments[2]), std::atoi(arguments[3]),
-                                 std::atoi(arguments[4]));
+                                 std::atoi(arguments[4]), of_resistance);
 }

@@ -57,6 +57,8 @@ std::string check_quantities(const std::string& text) {
 /// Why designs of a case are not ranked by a word that may be one of others.
 std::string fault_of_word(const std::string& word, const std::vector<RankedQuantity>& known) {
   if (word == "mass") return "the mass needs the density of every material; use volume, or set density";
+  if (word == "rolling_resistance")
+    return "the rolling resistance needs the loss factor of every material; set loss_factor";
   std::vector<std::string_view> words;
   for (const RankedQuantity& quantity : known) words.push_back(quantity.word);
   return fmt::format("'{}' is none of {}", word, fmt::join(words, ", "));

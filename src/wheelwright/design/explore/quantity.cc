@@ -21,14 +21,16 @@ RankedQuantity ranked(const Quantity& quantity) {
 
 namespace {
 
-constexpr std::array names_of_ranked{"stiffness",      "strain_energy",   "volume_fraction", "mass",
-                                     "run_out",        "force_variation", "peak_pressure",   "peak_von_mises",
-                                     "largest_strain", "roughness"};
+constexpr std::array names_of_ranked{
+    "stiffness",     "strain_energy",  "volume_fraction", "mass",      "run_out",           "force_variation",
+    "peak_pressure", "peak_von_mises", "largest_strain",  "roughness", "rolling_resistance"};
 
-/// Whether a case gives the densities that a quantity needs.
+/// Whether a case gives the constants of the materials that a quantity needs.
 bool has_what_it_needs(const Case& c, const Quantity& quantity) {
-  return std::ranges::find(quantity->needs, Input::density) == quantity->needs.end() ||
-         has_density(c, quantity->part);
+  return std::ranges::all_of(quantity->needs, [&](Input input) {
+    return (input != Input::density || has_density(c, quantity->part)) &&
+           (input != Input::loss_factor || has_loss_factor(c, quantity->part));
+  });
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <numeric>
 
+#include "wheelwright/mechanics/state/turn_losses.h"
 #include "wheelwright/quantities/analysis/all_positions.h"
 #include "wheelwright/quantities/analysis/rolling_measures.h"
-#include "wheelwright/quantities/functionals/rolling_resistance.h"
 
 namespace wheelwright {
 namespace {

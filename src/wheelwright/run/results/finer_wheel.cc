@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "wheelwright/base/available_memory.h"
+#include "wheelwright/mechanics/state/turn_losses.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
-#include "wheelwright/quantities/functionals/rolling_resistance.h"
 #include "wheelwright/run/results/own_numbers.h"
 #include "wheelwright/run/study/bounded_functions.h"
 #include "wheelwright/run/study/problem_size.h"
