@@ -1,41 +1,11 @@
 #pragma once
 
-#include "wheelwright/mechanics/state/functional_derivative.h"
+#include "wheelwright/mechanics/state/fatigue_utilization.h"
 #include "wheelwright/quantities/functionals/functional.h"
 #include "wheelwright/quantities/functionals/part_of_ring.h"
 #include "wheelwright/quantities/functionals/peak_norm.h"
 
 namespace wheelwright {
-
-// How close the material is to its fatigue limit: the utilization is the measure of FatigueStrength by its
-// limit, at least 0, and 0 in materials of unknown strength. All positions of the sector must have been
-// solved: the load cases of a point are the samples of its turn.
-
-/// Whether the fatigue strength of every material is known, or that of a part of the ring.
-template <int dim>
-bool has_fatigue_strength(const Materials<dim>& materials);
-
-/// The utilization at a point.
-template <int dim>
-double fatigue_utilization(const StrainsAtPoint<dim>& point);
-
-/// A power of the samples of the utilization, one per load case, the largest of which is the utilization.
-template <int dim>
-class UtilizationPower : public MaterialDensity<dim> {
- public:
-  UtilizationPower(Materials<dim> materials, int exponent, std::optional<PartOfRing> part)
-      : materials_(std::move(materials)), exponent_(exponent), part_(std::move(part)) {}
-
-  void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
-  void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-              const StressRows<dim>& slopes) const override;
-  bool covers(const PolarGrid<dim>& grid, int row) const override;
-
- private:
-  Materials<dim> materials_;
-  int exponent_;
-  std::optional<PartOfRing> part_;
-};
 
 /// The largest utilization in the whole ring, or in a part of it: a p-norm over the material and the turn, as
 /// the peak von Mises stress.
@@ -53,9 +23,21 @@ class FatigueUtilization : public Functional<dim> {
   bool is_mirror_symmetric(MirrorPlane plane) const override { return plane == MirrorPlane::width; }
 
  private:
+  class PowerInPart : public UtilizationPower<dim> {
+   public:
+    PowerInPart(const Materials<dim>& materials, int exponent, const std::optional<PartOfRing>& part)
+        : UtilizationPower<dim>(materials, exponent), part_(part) {}
+    bool covers(const PolarGrid<dim>& grid, int row) const override {
+      return UtilizationPower<dim>::covers(grid, row) && (!part_ || part_->has_row(grid, row));
+    }
+
+   private:
+    std::optional<PartOfRing> part_;
+  };
+
   PeakNorm norm_;
   std::optional<PartOfRing> part_;
-  UtilizationPower<dim> power_;
+  PowerInPart power_;
 };
 
 }  // namespace wheelwright
