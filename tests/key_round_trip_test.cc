@@ -122,6 +122,19 @@ std::vector<Case> starting_points() {
     kerb.load.ground_profile = {{-0.1, 0}, {0, 0.001}, {0.1, 0}};
     Case equal = bounded;
     equal.constraints = {{.quantity = built_in("strain_energy"), .equals = 5}};
+    for (const FatigueMeasure measure :
+         {FatigueMeasure::crossland, FatigueMeasure::goodman, FatigueMeasure::principal_strain}) {
+      Case tired = plain;
+      FatigueConstants& constants = tired.material;
+      constants = {.fatigue_measure = measure, .fatigue_exponent = 5};
+      if (measure == FatigueMeasure::principal_strain)
+        constants.fatigue_strain = 0.02;
+      else
+        constants.fatigue_limit = 2e6;
+      if (measure == FatigueMeasure::crossland) constants.fatigue_pressure_factor = 0.3;
+      if (measure == FatigueMeasure::goodman) constants.ultimate_strength = 2e7;
+      cases.push_back(tired);
+    }
     Case layered = plain;
     layered.layers = {{.name = "kerb", .outer_radius = 0.25}};
     layered.layers[0].density = 2000;
@@ -159,6 +172,7 @@ Case with_tables(Case c, const SectionArray<Struct>& section) {
     tables[0].inner_radius.reset();
     tables[0].outer_radius = 0.22;
     make_orthotropic(tables[1]);
+    static_cast<FatigueConstants&>(tables[1]) = c.material;
   }
   if constexpr (std::is_same_v<Struct, MaterialCord>) {  // another place for it is at 0.25 m
     c.layers = {material_layer_sections().example};

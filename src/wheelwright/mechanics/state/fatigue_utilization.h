@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheelwright/mechanics/elasticity/materials.h"
 #include "wheelwright/mechanics/state/functional_derivative.h"
 
 namespace wheelwright {
