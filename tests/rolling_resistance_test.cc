@@ -240,6 +240,22 @@ TEST(RollingResistance, OfPartsSumsToThatOfTheRing) {
   EXPECT_NEAR((*losses)->by_layer[0], in, 1e-10 * all);
 }
 
+// The energy of cords is part of the strain energy; they lose none of it.
+TEST(RollingResistance, CordsHaveNoLosses) {
+  auto model = small_model();
+  model.materials = Materials<2>(model.materials.layers(), {{0.32, 2e7}});
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = lopsided_holes(model.grid);
+  const auto state = solved(*problem, psi);
+  const auto& energy = state->energy_by_harmonic();
+  const auto by_energy = forces_by_energy(model.grid, static_cast<int>(energy.size()), 0.2);
+  const double with_cords = std::inner_product(energy.begin(), energy.end(), by_energy.begin(), 0.0),
+               found = resistance(*problem, psi);
+  EXPECT_LT(found, 0.9 * with_cords);
+  EXPECT_NEAR(total(resistance_of_layers<2>(*problem, *state)[0]), found, 1e-10 * found);
+}
+
 TEST(RollingResistance, IsThatOfAnyOtherSectorAndOfTheImage) {
   const auto model = small_model();
   const auto problem = RollingProblem<2>::create(model);
