@@ -103,18 +103,41 @@ struct SteadyRolling {
   double with_undeformed_levers;
 };
 
-/// `n`: about as many places across the patch, between which the pressure is constant.
-SteadyRolling rolling(double loss_factor, int n) {
-  const double half =
-      2 * std::sqrt(load * outer * (1 - poissons_ratio * poissons_ratio) / (pi * youngs_modulus)) / outer;
-  const double step = 2 * half / n;
-  const int n_places = 2 * (3 * n / 4) + 1, n_harmonics = static_cast<int>(30 / step);
-  // By the distance of two places, in steps: u and du/dt.
-  const int most = n_places - 1, n_distances = 2 * most + 1;
-  struct Kernels {
-    double rr = 0, rt = 0, tr = 0, tt = 0;
-  };
-  std::vector<Kernels> u(n_distances), slope(n_distances);
+/// Displacements, or their derivatives by the azimuth, at a place by unit tractions on a step at another one.
+struct Kernel {
+  double rr = 0, rt = 0, tr = 0, tt = 0;
+};
+
+/// Steps of equal width about the contact; the pressure is constant on each. By the distance of two of them.
+struct Places {
+  double step;
+  int n;
+  std::vector<Kernel> displacement, slope;
+
+  int middle() const { return (n - 1) / 2; }
+  double azimuth(int i) const { return (i - middle()) * step; }
+
+  /// By a unit pressure along the ground's normal on step j: [radial, along the azimuth].
+  std::array<double, 2> by_pressure(const std::vector<Kernel>& kernels, int i, int j) const {
+    const Kernel& k = kernels[i - j + n - 1];
+    const double t_r = -std::cos(azimuth(j)), t_t = std::sin(azimuth(j));
+    return {k.rr * t_r + k.rt * t_t, k.tr * t_r + k.tt * t_t};
+  }
+};
+
+/// Hertz's half-width [rad].
+double likely_half_width() {
+  const double modulus = youngs_modulus / (1 - poissons_ratio * poissons_ratio);
+  return 2 * std::sqrt(load * outer / (pi * modulus)) / outer;
+}
+
+/// With about `across` steps across the patch.
+Places places(double loss_factor, int across) {
+  const double step = 2 * likely_half_width() / across;
+  Places result{step, 2 * (3 * across / 4) + 1, {}, {}};
+  const int n_distances = 2 * result.n - 1, n_harmonics = static_cast<int>(30 / step);
+  result.displacement.resize(n_distances);
+  result.slope.resize(n_distances);
   for (int k = 0; k <= n_harmonics; ++k) {
     const Compliance c = k == 0 ? of_mean() : k == 1 ? of_first_harmonic() : of_harmonic(k);
     const double half_step = 0.5 * k * step;
@@ -123,75 +146,81 @@ SteadyRolling rolling(double loss_factor, int n) {
     // A material point comes to places of falling azimuth, and its strain lags behind.
     const std::complex<double> lag = k == 0 ? 1.0 : 1.0 / std::complex<double>(1, loss_factor);
     for (int d = 0; d < n_distances; ++d) {
-      const std::complex<double> wave = share * lag * std::polar(1.0, k * (d - most) * step);
+      const std::complex<double> wave = share * lag * std::polar(1.0, k * (d - result.n + 1) * step);
       const double cosine = wave.real(), sine = wave.imag();
-      u[d].rr += c.rr * cosine;
-      u[d].tr += c.tr * sine;
-      u[d].tt += c.tt * cosine;
-      u[d].rt -= c.rt * sine;
-      slope[d].rr -= mean * k * c.rr * sine;
-      slope[d].tr += mean * k * c.tr * cosine;
-      slope[d].tt -= mean * k * c.tt * sine;
-      slope[d].rt -= mean * k * c.rt * cosine;
+      Kernel &u = result.displacement[d], &slope = result.slope[d];
+      u.rr += c.rr * cosine;
+      u.tr += c.tr * sine;
+      u.tt += c.tt * cosine;
+      u.rt -= c.rt * sine;
+      slope.rr -= mean * k * c.rr * sine;
+      slope.tr += mean * k * c.tr * cosine;
+      slope.tt -= mean * k * c.tt * sine;
+      slope.rt -= mean * k * c.rt * cosine;
     }
   }
-  const auto azimuth = [&](int i) { return (i - most / 2) * step; };
-  // By a unit pressure along the ground's normal at place j: t_r = -cos, t_t = sin.
-  const auto by_pressure = [&](const std::vector<Kernels>& kernels, int i, int j) {
-    const Kernels& k = kernels[i - j + most];
-    const double t_r = -std::cos(azimuth(j)), t_t = std::sin(azimuth(j));
-    return std::array<double, 2>{k.rr * t_r + k.rt * t_t, k.tr * t_r + k.tt * t_t};
-  };
-  Matrix down(n_places, n_places), along(n_places, n_places), work(n_places, n_places);
-  std::vector<double> gap;
+  return result;
+}
+
+/// The pressures of frictionless contact under the load. `down`: displacement towards the ground on each step
+/// by a unit pressure on another.
+std::vector<double> pressures(const Places& at, const Matrix& down) {
   std::vector<char> touches;
-  for (int i = 0; i < n_places; ++i) {
-    const double c = std::cos(azimuth(i)), s = std::sin(azimuth(i));
-    gap.push_back(outer * (1 - c));
-    touches.push_back(std::abs(azimuth(i)) < half);
-    for (int j = 0; j < n_places; ++j) {
-      const auto [u_r, u_t] = by_pressure(u, i, j);
-      const auto [slope_r, slope_t] = by_pressure(slope, i, j);
-      down(i, j) = c * u_r - s * u_t;
-      along(i, j) = s * u_r + c * u_t;
-      work(i, j) = -c * slope_r + s * slope_t;
-    }
-  }
+  for (int i = 0; i < at.n; ++i) touches.push_back(std::abs(at.azimuth(i)) < likely_half_width());
   std::vector<double> pressure;
   for (bool changed = true; changed;) {
     std::vector<int> in;
-    for (int i = 0; i < n_places; ++i)
+    for (int i = 0; i < at.n; ++i)
       if (touches[i]) in.push_back(i);
     const int m = static_cast<int>(in.size());
     Matrix equations(m + 1, m + 1), right(m + 1, 1);
+    const auto gap = [&](int i) { return outer * (1 - std::cos(at.azimuth(i))); };
     for (int a = 0; a < m; ++a) {
       for (int b = 0; b < m; ++b) equations(a, b) = down(in[a], in[b]);
       equations(a, m) = 1;
-      equations(m, a) = outer * step;
-      right(a, 0) = gap[in[a]];
+      equations(m, a) = outer * at.step;
+      right(a, 0) = gap(in[a]);
     }
     right(m, 0) = load;
     const Matrix x = LuFactor::factor(equations)->solve(right);
-    pressure.assign(n_places, 0);
+    pressure.assign(at.n, 0);
     for (int a = 0; a < m; ++a) pressure[in[a]] = x(a, 0);
     changed = false;
-    for (int i = 0; i < n_places; ++i) {
-      double closer = x(m, 0) - gap[i];
-      for (int j = 0; j < n_places; ++j) closer += down(i, j) * pressure[j];
+    for (int i = 0; i < at.n; ++i) {
+      double closer = x(m, 0) - gap(i);
+      for (int j = 0; j < at.n; ++j) closer += down(i, j) * pressure[j];
       const bool now = touches[i] ? pressure[i] > 0 : closer > 0;
       changed = changed || now != static_cast<bool>(touches[i]);
       touches[i] = now;
     }
   }
-  SteadyRolling result{};
-  for (int i = 0; i < n_places; ++i) {
-    double lever = outer * std::sin(azimuth(i));
-    result.with_undeformed_levers -= pressure[i] * lever * step / load;
-    for (int j = 0; j < n_places; ++j) {
-      lever += along(i, j) * pressure[j];
-      result.dissipated += pressure[i] * work(i, j) * pressure[j] * step / load;
+  return pressure;
+}
+
+SteadyRolling rolling(double loss_factor, int across) {
+  const Places at = places(loss_factor, across);
+  Matrix down(at.n, at.n), along(at.n, at.n), work(at.n, at.n);
+  for (int i = 0; i < at.n; ++i) {
+    const double c = std::cos(at.azimuth(i)), s = std::sin(at.azimuth(i));
+    for (int j = 0; j < at.n; ++j) {
+      const auto [u_r, u_t] = at.by_pressure(at.displacement, i, j);
+      const auto [slope_r, slope_t] = at.by_pressure(at.slope, i, j);
+      down(i, j) = c * u_r - s * u_t;
+      along(i, j) = s * u_r + c * u_t;
+      work(i, j) = -c * slope_r + s * slope_t;
     }
-    result.moment -= pressure[i] * lever * step / load;
+  }
+  const std::vector<double> pressure = pressures(at, down);
+  SteadyRolling result{};
+  for (int i = 0; i < at.n; ++i) {
+    const double share = pressure[i] * at.step / load;
+    double lever = outer * std::sin(at.azimuth(i));
+    result.with_undeformed_levers -= share * lever;
+    for (int j = 0; j < at.n; ++j) {
+      lever += along(i, j) * pressure[j];
+      result.dissipated += share * work(i, j) * pressure[j];
+    }
+    result.moment -= share * lever;
   }
   return result;
 }
