@@ -14,6 +14,7 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
+#include "wheelwright/quantities/analysis/rolling_losses.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/study/predicted_deformation.h"
 #include "wheelwright/run/study/study.h"
@@ -146,6 +147,48 @@ void expect_an_end_of_each(int n, unsigned seed) {
 
 TEST(RandomWheels, AreSolvedOrFailWithAReason) { expect_an_end_of_each(12, 2); }
 TEST(RandomWheels, AreSolvedOrFailWithAReasonSlow) { expect_an_end_of_each(300, 1); }
+
+/// What the losses of one wheel cost, solved anew; nothing if it is not accepted or not solved.
+std::optional<RollingLosses> losses_of(const Case& drawn) {
+  const CaseResult read = parse_case(to_toml(drawn), "random.toml");
+  if (!read.value) return {};
+  const auto solver = make_solver(rolling_model<2>(*read.value));
+  if (!solver) return {};
+  const LevelSet<2> shape = initial_shape<2>(*read.value);
+  const auto state = (*solver)->states(shape, (*solver)->distinct_positions(shape), Interrupt());
+  if (!state) return {};
+  const auto losses = rolling_losses<2>(**solver, shape, **state);
+  return losses && *losses ? std::optional(**losses) : std::nullopt;
+}
+
+/// Every wheel that is solved has a rolling resistance that is finite, positive and the same when it is
+/// solved again. The harmonics of single layers may be differences of larger ones.
+template <class Wheels>
+void expect_finite_resistances(int n, unsigned seed) {
+  Wheels wheels(seed);
+  int n_solved = 0;
+  for (int k = 0; k < n; ++k) {
+    Case c = wheels.draw();
+    c.material.loss_factor = 0.1;
+    for (std::size_t i = 0; i < c.layers.size(); ++i)
+      c.layers[i].loss_factor = 0.05 * static_cast<double>(i + 1);
+    const auto losses = losses_of(c);
+    if (!losses) continue;
+    ++n_solved;
+    SCOPED_TRACE(k);
+    EXPECT_TRUE(std::isfinite(losses->resistance) && std::isfinite(losses->beyond));
+    EXPECT_TRUE(losses->resistance > 0 || total_load_positions(c) == 1) << losses->resistance << "\n"
+                                                                        << to_toml(c);
+    for (const double force : losses->by_harmonic) EXPECT_GE(force, -1e-6 * losses->resistance);
+    EXPECT_EQ(losses_of(c)->by_harmonic, losses->by_harmonic);
+  }
+  std::cout << n_solved << " of " << n << " solved\n";
+  EXPECT_GE(n_solved, 0.5 * n);
+}
+
+TEST(RandomWheels, HaveARollingResistance) { expect_finite_resistances<RandomWheels>(6, 2); }
+TEST(RandomWheels, HaveARollingResistanceSlow) { expect_finite_resistances<RandomWheels>(200, 1); }
+TEST(LayeredWheels, HaveARollingResistanceSlow) { expect_finite_resistances<LayeredWheels>(60, 3); }
 
 /// Whether a failure says what is wrong with the case: by its reason, or by a key.
 bool is_explained(const Failure& failure) {

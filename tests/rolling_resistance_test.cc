@@ -16,6 +16,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
 #include "wheelwright/mechanics/state/turn_harmonics.h"
+#include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 #include "wheelwright/quantities/functionals/quantities.h"
 #include "wheelwright/shape/geometry/mirror.h"
@@ -240,6 +241,22 @@ TEST(RollingResistance, OfPartsSumsToThatOfTheRing) {
   EXPECT_NEAR((*losses)->by_layer[0], in, 1e-10 * all);
 }
 
+// The energy of cords is part of the strain energy; they lose none of it.
+TEST(RollingResistance, CordsHaveNoLosses) {
+  auto model = small_model();
+  model.materials = Materials<2>(model.materials.layers(), {{0.32, 2e7}});
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = lopsided_holes(model.grid);
+  const auto state = solved(*problem, psi);
+  const auto& energy = state->energy_by_harmonic();
+  const auto by_energy = forces_by_energy(model.grid, static_cast<int>(energy.size()), 0.2);
+  const double with_cords = std::inner_product(energy.begin(), energy.end(), by_energy.begin(), 0.0),
+               found = resistance(*problem, psi);
+  EXPECT_LT(found, 0.9 * with_cords);
+  EXPECT_NEAR(total(resistance_of_layers<2>(*problem, *state)[0]), found, 1e-10 * found);
+}
+
 TEST(RollingResistance, IsThatOfAnyOtherSectorAndOfTheImage) {
   const auto model = small_model();
   const auto problem = RollingProblem<2>::create(model);
@@ -268,6 +285,28 @@ TEST(RollingResistance, OfASymmetricWheelNeedsAllPositions) {
   ASSERT_TRUE(losses && *losses);
   EXPECT_NEAR((*losses)->resistance, resistance(*problem, psi), 1e-9 * (*losses)->resistance);
   EXPECT_NEAR((*losses)->coefficient, (*losses)->resistance / model.load, 1e-9 * (*losses)->coefficient);
+}
+
+// As tables, pages and JSON show it: on the whole width, nothing without loss factors.
+TEST(RollingResistance, IsANumberOfTheWheel) {
+  for (const bool has_loss_factor : {true, false}) {
+    auto model = small_model();
+    if (!has_loss_factor) model.materials = Material{200e6, 0.3};
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const auto psi = testing::paper_holes(model.grid);
+    const auto states = problem->states(psi, problem->distinct_positions(psi), Interrupt());
+    const auto wheel = described_solution<2>(*problem, psi, 0.5, states, {});
+    const auto value = [&](std::string_view key) {
+      return known_value(*std::ranges::find(wheel_numbers<2>(), key, &WheelNumber<2>::key), wheel);
+    };
+    EXPECT_EQ(value("rolling_resistance_N").has_value(), has_loss_factor);
+    EXPECT_EQ(value("rolling_resistance_unresolved_N").has_value(), has_loss_factor);
+    if (!has_loss_factor) continue;
+    const double force = resistance(*problem, psi) * model.grid.width;
+    EXPECT_NEAR(*value("rolling_resistance_N"), force, 1e-9 * force);
+    EXPECT_NEAR(*value("rolling_resistance_coefficient"), force / *value("load_N"), 1e-9);
+  }
 }
 
 TEST(RollingResistance, WithoutLossFactorsThereIsNone) {

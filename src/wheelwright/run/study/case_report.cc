@@ -233,10 +233,10 @@ std::vector<std::string> warnings_of_losses(const Case& c) {
   const Case worst = std::ranges::max(single_load_cases(c), {}, unresolved_losses);
   if (const double share = unresolved_losses(worst); share > much)
     result.push_back(fmt::format(
-        "{} = {} leave out about {:.2g} % of the rolling resistance, near the contact, which is about {:.3g} "
-        "mm long; {} leave out {:g} % (wheelwright analyze has the option --positions)",
+        "with {} = {} about {:.2g} % of the rolling resistance is left out, near the contact, which is about "
+        "{:.3g} mm long; with {} it is {:g} %, also by wheelwright analyze --positions {}",
         key_of(&Load::positions).path(), c.load.positions, 100 * share, 2e3 * likely_half_width(worst),
-        positions_for_losses(worst, little), 100 * little));
+        positions_for_losses(worst, little), 100 * little, positions_for_losses(worst, little)));
   for (const PlacedMaterial& placed : placed_materials(c))
     if (*placed.loss_factor() > large_factor)
       result.push_back(fmt::format(
