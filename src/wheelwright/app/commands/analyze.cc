@@ -35,9 +35,9 @@ constexpr const char* result_file = "analysis.json";
 
 /// All files that are written to the folder: add the names of new files here.
 constexpr std::string_view files_of_analysis[] = {
-    "analysis.json",      "travel.svg",       "force.svg",   "peak_pressure.svg", "pressures.svg",
-    "pressures.csv",      "pass.csv",         "loads.svg",   "mesh.svg",          "stress.svg",
-    "stress_contact.svg", "displacement.svg", "pressure.svg"};
+    "analysis.json",      "travel.svg",       "force.svg",    "peak_pressure.svg", "pressures.svg",
+    "pressures.csv",      "pass.csv",         "loads.svg",    "mesh.svg",          "stress.svg",
+    "stress_contact.svg", "displacement.svg", "pressure.svg", "fatigue.svg"};
 
 /// Loads on the whole width [N]. The wheel's name replaces a missing title.
 template <int dim>

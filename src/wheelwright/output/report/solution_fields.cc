@@ -6,6 +6,7 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/report/cell_means.h"
+#include "wheelwright/output/report/fatigue_field.h"
 
 namespace wheelwright {
 namespace {
@@ -352,7 +353,8 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
           .contact = points_at(solver, state, source, position),
           .von_mises = peak_at(lattice.grid(), state.strain_peaks(), source),
-          .layers = layer_circles(solver.model().materials)};
+          .layers = layer_circles(solver.model().materials),
+          .fatigue = fatigue_field(solver, state)};
 }
 
 }  // namespace
@@ -375,11 +377,13 @@ void for_each_position(const StateSolver<dim>& solver, const State<dim>& state,
 
 template <int dim>
 std::vector<NamedField> named_fields(const PositionFields<dim>& fields) {
-  return {{"displacement", unit<dim>(UnitKind::length), fields.displacement},
-          {.name = "stress",
-           .unit = unit<dim>(UnitKind::stress),
-           .field = fields.stress,
-           .beside = {{von_mises_name, unit<dim>(UnitKind::stress), von_mises_of}}}};
+  std::vector<NamedField> named{{"displacement", unit<dim>(UnitKind::length), fields.displacement},
+                                {.name = "stress",
+                                 .unit = unit<dim>(UnitKind::stress),
+                                 .field = fields.stress,
+                                 .beside = {{von_mises_name, unit<dim>(UnitKind::stress), von_mises_of}}}};
+  if (fields.fatigue) named.push_back({"fatigue_utilization", unit<dim>(UnitKind::ratio), *fields.fatigue});
+  return named;
 }
 
 template <int dim>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "wheelwright/mechanics/state/ring_field.h"
 #include "wheelwright/mechanics/state/state.h"
@@ -37,6 +38,7 @@ struct PositionFields {
   std::vector<ContactPoint> contact;
   DrawnPeak<dim> von_mises;
   LayerCircles layers = {};
+  std::optional<RingField> fatigue = {};  ///< fatigue_field()
 };
 
 template <int dim>

@@ -46,6 +46,17 @@ DeformedPicture<dim> with_displacement(DeformedPicture<dim> picture) {
   return picture;
 }
 
+/// The same with the fatigue utilization of a turn instead.
+template <int dim>
+DeformedPicture<dim> with_fatigue(DeformedPicture<dim> picture, const RingField& utilization) {
+  RingField in_percent = utilization;
+  for (auto* values : {&in_percent.values, &in_percent.odd_values})
+    for (double& value : *values) value *= 100;
+  picture.scalar = {"fatigue utilization", "%", std::move(in_percent)};
+  picture.peak = {};
+  return picture;
+}
+
 }  // namespace
 
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
@@ -62,6 +73,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   write("stress.svg", stress);
   write("stress_contact.svg", contact);
   write("displacement.svg", with_displacement(stress));
+  if (fields.fatigue) write("fatigue.svg", with_fatigue(stress, *fields.fatigue));
   write_atomically(folder / (names.prefix + "mesh.svg"), mesh_svg(shape, domain, names.title, fields.layers));
 }
 
@@ -74,6 +86,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   const auto stress = stress_picture(names, fields);
   write("stress.svg", stress);
   write("displacement.svg", with_displacement(stress));
+  if (fields.fatigue) write("fatigue.svg", with_fatigue(stress, *fields.fatigue));
   write_atomically(folder / (names.prefix + "pressure.svg"),
                    pressure_map_svg(names.title, shape.lattice.grid(), fields.contact));
 }

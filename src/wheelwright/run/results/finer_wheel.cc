@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wheelwright/base/available_memory.h"
+#include "wheelwright/mechanics/state/fatigue_utilization.h"
 #include "wheelwright/mechanics/state/turn_losses.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
@@ -18,8 +19,9 @@ namespace wheelwright {
 template <int dim>
 LoadPositions positions_of_results(const Study<dim>& study, const StateSolver<dim>& solver,
                                    const LevelSet<dim>& shape) {
-  return are_mirror_symmetric<dim>(study.functions, MirrorPlane::azimuth) &&
-                 !has_loss_factors(solver.model().materials)
+  const auto& materials = solver.model().materials;
+  const bool are_of_a_turn = has_loss_factors(materials) || has_fatigue_strength(materials);
+  return are_mirror_symmetric<dim>(study.functions, MirrorPlane::azimuth) && !are_of_a_turn
              ? distinct_positions(solver, study.load_cases, shape)
              : solver.all_positions();
 }
