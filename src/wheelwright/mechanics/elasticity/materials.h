@@ -28,12 +28,6 @@ class Materials {
     double stiffness;  ///< E A per width along the axle [N/m]
   };
 
-  /// Cords side by side along a circle, as thick as a line.
-  struct Cord {
-    double radius;     ///< [m]
-    double stiffness;  ///< E A per width along the axle [N/m]
-  };
-
   Materials() : Materials(Material()) {}
 
   /// The same material everywhere.
