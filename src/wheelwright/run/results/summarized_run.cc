@@ -43,9 +43,10 @@ KnownNumber known(const Expected<double>& value) {
 }  // namespace
 
 template <int dim>
-RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>& start,
-                               const Expected<double>& objective, DescribedWheel<dim> before,
-                               const OptimizationState<dim>& last, DescribedWheel<dim> after) {
+RunSummary<dim> summarized_run(const Study<dim>& study, const Study<dim>& given,
+                               const InitialShape<dim>& start, const Expected<double>& objective,
+                               DescribedWheel<dim> before, const OptimizationState<dim>& last,
+                               DescribedWheel<dim> after) {
   auto worse = remarks(study.source, before, after);
   return {.title = run_title(study.source),
           .before = {0, known(objective), std::move(before)},
@@ -55,7 +56,7 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>&
           .objective = shown_unit(study.source.objective.minimize, study.source.wheel),
           .remarks = std::move(worse),
           .bounded_peaks = bounded_peaks(study.source),
-          .changed_start = changed_start(study, start)};
+          .changed_start = changed_start(given, start)};
 }
 
 template decltype(summarized_run<2>) summarized_run<2>;
