@@ -13,8 +13,7 @@ namespace {
 
 using testing::paper_holes;
 
-const PolarGrid<2> grid = {
-    .inner_radius = 0.2, .outer_radius = 0.34, .width = 0.12, .n_sectors = 16, .cells = {14, 12}};
+const PolarGrid<2> grid(0.2, 0.34, 0.12, 16, {14, 12});
 
 /// Area [m^2] inside of the paths of this colour on the wheel, all sectors.
 double area(const std::string& svg, const std::string& colour) {

@@ -7,7 +7,7 @@ namespace wheelwright {
 
 namespace {
 
-constexpr std::array<Preset, 12> all{{
+constexpr std::array<Preset, 13> all{{
     {"paper16", "the wheel of the paper with 16 holes", R"(# The wheel of the paper: 16 round holes.
 
 title = "16 holes"
@@ -352,6 +352,7 @@ holes = "none"
 mass = 150
 
 [[shape.annulus]]
+outer_radius = 0.28
 
 [[shape.spoke]]
 kind = "curved"
@@ -363,6 +364,44 @@ bend = 30
 [grid]
 radial_cells = 40
 angular_cells = 576
+)"},
+    {"nip-roller", "a rubber-covered roller in a nip, pressed on a steel roll",
+     R"(# A roller of 120 mm x 400 mm in a nip: rubber on an extruded core of aluminium, pressed on a steel roll of 150 mm.
+
+title = "Nip roller"
+
+[wheel]
+inner_radius = 0.015
+outer_radius = 0.06
+width = 0.4
+sectors = 8
+
+[material]
+youngs_modulus = 70e9
+poissons_ratio = 0.33
+density = 2700
+
+[[material.layer]]
+name = "cover"
+inner_radius = 0.048
+youngs_modulus = 6e6
+poissons_ratio = 0.49
+density = 1200
+holes = "none"
+
+[load]
+force = 1200
+ground = "drum"
+ground_radius = 0.075
+
+[[holes.ring]]
+count = 8
+center_radius = 0.032
+radius = 0.009
+
+[grid]
+radial_cells = 30
+angular_cells = 384
 )"},
 }};
 

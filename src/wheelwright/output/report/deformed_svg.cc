@@ -132,7 +132,7 @@ std::string layer_path(const LevelSet<2>& psi, const DeformedMaterial& material,
       const int column = k / parts;
       const double part = static_cast<double>(k % parts) / parts;
       if (value_on_line(psi, row, column % grid.columns(), part) < 0) {
-        const double azimuth = (column + part) * grid.cell_size()[1];
+        const double azimuth = (column + part) * grid.column_angle();
         const PicturePoint p = picture_point(material.drawn(cartesian<2>({radius, azimuth})), view);
         path += fmt::format("{}{} {}", is_drawing ? 'L' : 'M', p[0], p[1]);
         is_drawing = true;
