@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
@@ -13,6 +14,7 @@
 #include "wheelwright/quantities/functionals/rim_quantities.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/geometry/moved_lines.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {
@@ -168,6 +170,74 @@ TEST(RadiusGradient, WithCordsAndOtherPenaltiesPassesTheTaylorTest) {
   wheel.model.contact.theta_nitsche = 1;
   wheel.model.contact.gamma_0 = 1000;
   expect_exact(wheel, psi, terms_of<StrainEnergy<2>>());
+}
+
+/// Also solved on half of the width, if the shape is its own mirror image there.
+TEST(RadiusGradient, In3DPassesTheTaylorTest) {
+  for (const bool is_symmetric : {true, false}) {
+    SCOPED_TRACE(is_symmetric);
+    LayeredWheel<3> wheel;
+    auto& model = wheel.model;
+    model.grid = {0.20, 0.34, 0.12, 16, {7, 6, 2}, {{3, 0.2631}, {6, 0.32}}};
+    model.design_lines = {3};
+    model.degree = 1;
+    model.load = 2943;
+    model.n_positions = 2;
+    model.contact_points = 3;
+    model.contact.friction = 0.3;
+    model.torque = 120;
+    wheel.materials = {{20e6, 0.3}, {200e6, 0.3}, {200e6, 0.3}};
+    const Circle hole{0.2581, 0.47 * model.grid.sector_angle(), 0.0273};
+    auto psi = make_level_set<3>(Lattice<3>(model.grid, 1), std::span(&hole, 1));
+    for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+      const double z = psi.lattice.polar_point(i)[2];
+      psi.values[i] += 0.002 * std::cos(20 * (is_symmetric ? z - 0.06 : z));
+    }
+    const auto energy = [](const auto&) { return WeightedSum<3>{{1, std::make_shared<StrainEnergy<3>>()}}; };
+    expect_exact(wheel, psi, energy);
+    expect_exact(wheel, psi, [](const RollingModel<3>& at) {
+      return WeightedSum<3>{{1, std::make_shared<Mass<3>>(at.materials)}};
+    });
+  }
+}
+
+/// Where the interface lies in solid material, moving the shape with the rows changes nothing else: the
+/// derivative is that of the exact stiffness of a bush of two layers.
+TEST(RadiusGradient, TendsToThatOfTheExactStiffness) {
+  const Material core{30e6, 0.3}, tyre{2e6, 0.45};
+  const auto compliance = [&](double radius) {
+    const auto of = [](const Material& m, double inner, double outer) {
+      const double mu = m.youngs_modulus / (2 * (1 + m.poissons_ratio));
+      return (1 / (inner * inner) - 1 / (outer * outer)) / (4 * std::numbers::pi * mu);
+    };
+    return of(core, 0.20, radius) + of(tyre, radius, 0.34);
+  };
+  double last = 0;
+  for (const int level : {0, 1}) {
+    LayeredWheel<2> wheel{paper_model(8 << level, 64 << level), {core, tyre, tyre}};
+    auto& model = wheel.model;
+    model.grid.n_sectors = 8;
+    model.grid.cells[1] = 8 << level;
+    model.grid.fixed_lines = {{4 << level, 0.2731}, {(8 << level) - 1, 0.34 - 0.0175 / (1 << level)}};
+    model.design_lines = {4 << level};
+    model.contact.counterpart = Counterpart::ring;
+    model.contact_points = 3;
+    model.n_positions = 1;
+    model.torque = 1000;
+    const auto solver = make_solver(wheel.at(0.2731));
+    ASSERT_TRUE(solver);
+    const auto value = testing::evaluate_objective<2>(
+        **solver, {{1, std::make_shared<RimTravel<2>>(RimWay::rotation)}}, testing::holes(model.grid, 2, {}));
+    ASSERT_TRUE(value) << value.failure().detail;
+    const double step = 1e-5,
+                 exact = 1000 * (compliance(0.2731 + step) - compliance(0.2731 - step)) / (2 * step),
+                 error = std::abs(value->functions[0].by_radius[0] / exact - 1);
+    if (level > 0) {
+      EXPECT_GT(std::log2(last / error), 1.8);
+      EXPECT_LT(error, 2e-3);
+    }
+    last = error;
+  }
 }
 
 }  // namespace

@@ -107,6 +107,18 @@ mean = "held"
                                   6);
 }
 
+TEST_F(Resume, RadiiOfLayersContinueIdentically) {
+  expect_the_same_from_every_stop(small_case_of_any_width(6, R"(
+[[material.layer]]
+name = "core"
+outer_radius = 0.262
+outer_radius_range = [0.25, 0.28]
+youngs_modulus = 900e6
+poissons_ratio = 0.3
+)"),
+                                  6);
+}
+
 TEST_F(Resume, PositionsBetweenColumnsContinueIdentically) {
   std::string text = small_case_of_any_width(4, "[objective]\nstrain_energy = 1\nuniformity_dual = 10\n");
   const std::string positions = "positions = 2";

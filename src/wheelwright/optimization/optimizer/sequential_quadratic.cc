@@ -53,11 +53,18 @@ void append(const std::vector<double>& values, double factor, Nodal& load) {
   for (const double value : values) load.push_back(factor * value);
 }
 
-/// The derivatives of the measure with respect to the radii of design lines, if there are any.
+/// The derivatives of the measure with respect to the radii of design lines, if there are any. Those of
+/// shapes without holes there are exactly zero.
 template <int dim>
-std::vector<double> measure_by_radius(const Evaluation<dim>& evaluation, const std::string& objective) {
+std::vector<double> measure_by_radius(const Evaluation<dim>& evaluation, const std::string& objective,
+                                      const PolarGrid<dim>& grid) {
   if (evaluation.function(objective).by_radius.empty()) return {};
-  return evaluation.function("volume").by_radius;
+  const FunctionValue& measure = evaluation.function("volume");
+  std::vector<double> derivatives = measure.by_radius;
+  const double rounding = 1e-9 * measure.value / grid.outer_radius;
+  for (double& derivative : derivatives)
+    if (std::abs(derivative) < rounding) derivative = 0;
+  return derivatives;
 }
 
 /// The derivatives of the objective, of the measure, and of the constraints, as loads.
@@ -75,7 +82,7 @@ std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const LevelSet<dim>&
   };
   std::vector<Nodal> result{load_of(evaluation.function(objective), 1),
                             motion.load(std::vector<double>(evaluation.boundary.size(), 1.0))};
-  append(measure_by_radius(evaluation, objective), 1, result.back());
+  append(measure_by_radius(evaluation, objective, shape.lattice.grid()), 1, result.back());
   for (const auto& c : constraints) result.push_back(load_of(evaluation.functions[c.function], 1 / c.scale));
   return result;
 }
