@@ -304,7 +304,7 @@ class ExportedWheel:
     def test_3mf(self):
         stl = self.folder / "from_3mf.stl"
         told = subprocess.run([read_3mf, self.file("3mf"), stl], capture_output=True, text=True, check=True).stdout
-        self.assertEqual(told, "unit 1\nobjects 1\nwarnings 0\n")  # millimetres
+        self.assertEqual(told, "object wheel\nunit 1\nobjects 1\nwarnings 0\n")  # millimetres
         self.compare_mesh(stl)
 
     def compare_mesh(self, path):

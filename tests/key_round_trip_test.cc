@@ -122,7 +122,16 @@ std::vector<Case> starting_points() {
     kerb.load.ground_profile = {{-0.1, 0}, {0, 0.001}, {0.1, 0}};
     Case equal = bounded;
     equal.constraints = {{.quantity = built_in("strain_energy"), .equals = 5}};
-    cases.insert(cases.end(), {plain, frictionless, loads, bounded, minimizing, equal, kerb, orthotropic});
+    Case layered = plain;
+    layered.layers = {{.name = "kerb", .outer_radius = 0.25}};
+    layered.layers[0].density = 2000;
+    layered.objective.terms = {{.quantity = built_in("peak_von_mises")}};
+    layered.constraints = {{.quantity = built_in("peak_von_mises"), .at_most = 1e6}};
+    layered.expectations = {{.quantity = built_in("mass"), .value = 5}};
+    Case of_layer = layered;
+    of_layer.objective = {.minimize = built_in("peak_von_mises")};
+    cases.insert(cases.end(), {plain, frictionless, loads, bounded, minimizing, equal, kerb, orthotropic,
+                               layered, of_layer});
   }
   return cases;
 }

@@ -15,6 +15,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/lu_factor.h"
+#include "wheelwright/mechanics/state/layer_measures.h"
 #include "wheelwright/output/page/sector_mesh.h"
 #include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/solution_fields.h"

@@ -9,6 +9,7 @@
 #include "wheelwright/case/case.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/ground_of.h"
+#include "wheelwright/case/layers.h"
 
 namespace wheelwright::testing {
 
@@ -355,10 +356,22 @@ class LayeredWheels {
       c.layers.push_back(layer);
       share = end;
     }
+    fit_rows(c);
     return c;
   }
 
  private:
+  /// Gives every layer a row, and the bands the thickness of the rows that have moved.
+  static void fit_rows(Case& c) {
+    c.grid.radial_cells = std::max(c.grid.radial_cells, static_cast<int>(radii_of_lines(c).size()) + 1);
+    const PolarGrid<2> grid = polar_grid<2>(c);
+    const Bands thinnest = bands(c);
+    c.optimizer.rim_band =
+        std::max(*c.optimizer.rim_band, grid.radius(thinnest.rim.full_rows) - grid.inner_radius);
+    c.optimizer.tread_band = std::max(
+        *c.optimizer.tread_band, grid.outer_radius - grid.radius(grid.cells[0] - thinnest.tread.full_rows));
+  }
+
   AnyWheels wheels_;
   std::mt19937 random_;
 };

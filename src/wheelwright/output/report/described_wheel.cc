@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "wheelwright/cad/outline/fit_outline.h"
-#include "wheelwright/quantities/functionals/mass.h"
+#include "wheelwright/mechanics/state/layer_measures.h"
 #include "wheelwright/quantities/functionals/quantities.h"
 
 namespace wheelwright {

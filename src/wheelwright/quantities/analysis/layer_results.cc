@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "wheelwright/mechanics/state/layer_measures.h"
 #include "wheelwright/mechanics/state/strain_peaks.h"
-#include "wheelwright/quantities/functionals/mass.h"
 
 namespace wheelwright {
 

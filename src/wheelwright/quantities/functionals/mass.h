@@ -5,15 +5,6 @@
 
 namespace wheelwright {
 
-/// The mass of a shape by its volume [kg/m^3]; nothing if a layer has no density.
-template <int dim>
-std::optional<double> mean_density(const Materials<dim>& materials, const LevelSet<dim>& psi);
-
-/// The mass of the whole ring that every layer of a model has in a shape [kg per metre of width when dim = 2,
-/// kg when dim = 3]; nothing for a layer without a density.
-template <int dim>
-std::vector<std::optional<double>> layer_masses(const RollingModel<dim>& model, const CutDomain<dim>& shape);
-
 /// The mass of the whole ring or of a part of it [kg per metre of width when dim = 2, kg when dim = 3], in
 /// which a layer without a density does not count. It does not depend on the load position. The density of
 /// its shape derivative is that of the material at the boundary, times the number of sectors.

@@ -19,9 +19,10 @@ struct LayerShape {
 template <int dim>
 std::vector<LayerShape<dim>> layer_shapes(const Case& c, const LevelSet<dim>& shape);
 
-/// The radii of the circles that divide an outline, which deviates by `tolerance` [m] from the shape, into its
-/// layers: those between the layers. Holes that end at what stays material would leave a skin of their distance
-/// from it: there the circle lies farther on their side, by that distance and what the outline may deviate.
+/// The radii of the circles that divide an outline, which deviates by `tolerance` [m] from the shape, into
+/// its layers: those between the layers. Holes that end at what stays material would leave a skin of their
+/// distance from it: there the circle lies farther on their side, by that distance and what the outline may
+/// deviate.
 std::vector<double> cutting_radii(const Case& c, double tolerance);
 
 }  // namespace wheelwright
