@@ -72,16 +72,18 @@ const SectionArray<HoleTapered>& tapered_sections() {
           "it; give any number of them",
       .in = [](Case& c) -> std::vector<HoleTapered>& { return c.holes.tapered; },
       .example = conical_holes(),
-      .keys = {count_key<HoleTapered>(),
-               center_radius_key<HoleTapered>(),
-               {.name = "profile",
-                .unit = "m",
-                .field = PointsField<HoleTapered>{&HoleTapered::profile, between(-1000, 1000)},
-                .meaning = "[[z, radius], ...]: the radius along the axle, linear between the points and "
-                           "constant beyond the ends; z is measured from the middle of the width and "
-                           "increases; where the radius is negative there is no hole",
-                .presence = Presence::required},
-               phase_key<HoleTapered>(phase_of_centre)}};
+      .keys = {
+          count_key<HoleTapered>(),
+          center_radius_key<HoleTapered>(),
+          {.name = "profile",
+           .unit = "m",
+           .field = PointsField<HoleTapered>{&HoleTapered::profile, between(-1000, 1000)},
+           .meaning = "[[z, radius], ...]: the radius along the axle, linear between the points and "
+                      "constant beyond the ends; z is measured from the middle of the width and "
+                      "increases; where the radius is negative there is no hole; or the name of a CSV file "
+                      "with these two columns",
+           .presence = Presence::required},
+          phase_key<HoleTapered>(phase_of_centre)}};
   return sections;
 }
 

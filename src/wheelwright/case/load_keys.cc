@@ -33,8 +33,10 @@ std::vector<Key<Load>> ground_keys() {
       {.name = "ground_profile",
        .unit = "m",
        .field = PointsField<Load>{&Load::ground_profile, between(-1000, 1000), "none"},
-       .meaning = "[[along, height], ...]: points of the ground, ascending along it, with straight lines "
-                  "between them and level ground beyond; heights are above flat ground"}};
+       .meaning =
+           "[[along, height], ...]: points of the ground, ascending along it, with straight lines "
+           "between them and level ground beyond; heights are above flat ground; or the name of a CSV file "
+           "with these two columns"}};
 }
 
 /// With the keys of the ground before its last one.

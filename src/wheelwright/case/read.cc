@@ -22,7 +22,9 @@
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/load_drawings.h"
 #include "wheelwright/case/load_saved_shape.h"
+#include "wheelwright/case/named_file.h"
 #include "wheelwright/case/number_text.h"
+#include "wheelwright/case/points_file.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
@@ -226,18 +228,46 @@ std::optional<Complaint> read_field(const toml::node& node, const BoundKey& key,
   return complaint;
 }
 
-std::optional<Complaint> read_field(const toml::node& node, const BoundKey& key,
-                                    const PointsField<BoundTable>& field) {
+std::optional<Complaint> wrong_number_of_points(std::size_t n) {
+  if (n >= fewest_points && n <= most_points) return {};
+  return Complaint{Kind::out_of_range,
+                   fmt::format("has {} points; {} to {} are accepted", n, fewest_points, most_points), ""};
+}
+
+/// The points of a CSV file.
+std::optional<Complaint> read_points_file(const std::filesystem::path& file,
+                                          const PointsField<BoundTable>& field) {
+  std::vector<FileProblem> problems;
+  const auto bytes = read_named_file(file, {}, most_points * 100, problems);
+  if (!bytes) return Complaint{problems[0].kind, problems[0].problem, problems[0].remedy};
+  const auto points = parse_points(*bytes);
+  if (!points)
+    return Complaint{Kind::wrong_type,
+                     fmt::format("{}:{}: {}", file.string(), points.failure().line, points.failure().problem),
+                     "write x, y on each line"};
+  for (const auto& point : *points)
+    for (const double x : point)
+      if (!field.range.contains(x))
+        return Complaint{Kind::out_of_range,
+                         fmt::format("{}: {} is out of range", file.string(), number_text(x)),
+                         field.range.text()};
+  if (auto complaint = wrong_number_of_points(points->size())) return complaint;
+  field.member.value() = *points;
+  return {};
+}
+
+std::optional<Complaint> read_points(const Reading& reading, const toml::node& node, const BoundKey& key,
+                                     const PointsField<BoundTable>& field) {
+  if (const auto name = node.value<std::string>(); name && name->ends_with(".csv"))
+    return read_points_file(std::filesystem::path(reading.file).parent_path() / *name, field);
   const toml::array* array = node.as_array();
   const auto is_point = [](const toml::node& element) {
     return element.is_array() && element.as_array()->size() == 2;
   };
   if (!array || !std::all_of(array->begin(), array->end(), is_point))
-    return wrong_type("a list of points", "write it as [[x, y], [x, y], [x, y]]");
-  if (array->size() < fewest_points || array->size() > most_points)
-    return Complaint{
-        Kind::out_of_range,
-        fmt::format("has {} points; {} to {} are accepted", array->size(), fewest_points, most_points), ""};
+    return wrong_type("a list of points",
+                      "write it as [[x, y], [x, y], [x, y]], or name a CSV file that contains it");
+  if (auto complaint = wrong_number_of_points(array->size())) return complaint;
   auto& points = field.member.value();
   points.assign(array->size(), {});
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -300,6 +330,8 @@ std::optional<Complaint> read_field_of(const Reading& reading, const toml::node&
       [&]<class Field>(const Field& field) {
         if constexpr (std::same_as<Field, QuantityField<BoundTable>>)
           return read_quantity(node, reading.vocabulary.quantities, field);
+        else if constexpr (std::same_as<Field, PointsField<BoundTable>>)
+          return read_points(reading, node, key, field);
         else
           return read_field(node, key, field);
       },

@@ -73,7 +73,7 @@ const SectionArray<PolygonShape>& polygon_shape_sections() {
            .unit = "m",
            .field = PointsField<PolygonShape>{&PolygonShape::points, between(-1000, 1000)},
            .meaning = "[[x, y], [x, y], ...]: corners of the first one, in order; the axle is at [0, 0], and "
-                      "azimuth 0 is along x",
+                      "azimuth 0 is along x; or the name of a CSV file with these two columns",
            .presence = Presence::required},
           angle_key(&PolygonShape::phase, "phase", "turns all of them towards larger azimuth")}};
   return sections;
