@@ -1,6 +1,5 @@
 #pragma once
 
-#include "wheelwright/mechanics/elasticity/element.h"
 #include "wheelwright/mechanics/state/functional_derivative.h"
 #include "wheelwright/mechanics/state/load_positions.h"
 
