@@ -186,7 +186,9 @@ TEST(RadiusGradient, In3DPassesTheTaylorTest) {
     model.contact_points = 3;
     model.contact.friction = 0.3;
     model.torque = 120;
-    wheel.materials = {{20e6, 0.3}, {200e6, 0.3}, {200e6, 0.3}};
+    wheel.materials = {{20e6, 0.3, Plane::strain, 7000},
+                       {200e6, 0.3, Plane::strain, 1100},
+                       {200e6, 0.3, Plane::strain, 1100}};
     const Circle hole{0.2581, 0.47 * model.grid.sector_angle(), 0.0273};
     auto psi = make_level_set<3>(Lattice<3>(model.grid, 1), std::span(&hole, 1));
     for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
