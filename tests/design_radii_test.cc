@@ -57,6 +57,9 @@ with = "ring"
 [grid]
 radial_cells = 20
 angular_cells = 128
+[optimizer]
+rim_band = 0.002
+tread_band = 0.0035
 [objective]
 minimize = "mass"
 layer = "core"
@@ -131,12 +134,10 @@ torque = 30
 [contact]
 friction = 0.4
 [[holes.circle]]
-center_radius = 0.272
-center_azimuth = 9
+center = [0.2687, 0.0426]
 radius = 0.021
 [[holes.circle]]
-center_radius = 0.266
-center_azimuth = 33
+center = [0.2231, 0.1449]
 radius = 0.017
 [grid]
 radial_cells = 14
@@ -145,35 +146,44 @@ tread_levels = 0
 [optimizer]
 minimum_wall = 0
 minimum_gap = 0
+rim_band = 0.014
+tread_band = 0.025
 )";
 
 /// Shape and radius move together: the objective changes as the move's model says, up to the second order.
+/// From the second shape on, since the first is no spline.
 TEST(DesignRadii, MoveWithTheShapeAsPredicted) {
-  const auto study = make_study<2>(case_of(wheel));
+  auto study = make_study<2>(case_of(wheel));
   ASSERT_TRUE(study) << study.failure().detail;
+  study->optimizer.redistance_every = 0;
+  const auto nothing = [](const auto&, const auto&) {};
+  const auto on = [] { return false; };
+  const auto at_first = optimizer_of(*study);
+  auto second = at_first.start(study->initial, nothing);
+  ASSERT_TRUE(second) << second.failure().detail;
+  ASSERT_FALSE(at_first.advance(*second, nothing, on));
+  const auto optimizer = at_first.on(second->shape.lattice.grid());
+  ASSERT_TRUE(optimizer);
+  const double radius = second->shape.lattice.grid().fixed_lines.front().radius,
+               before = second->evaluation.function("objective").value;
+  EXPECT_NE(radius, 0.268);
   double last = 0;
-  for (const double step : {0.08, 0.04, 0.02}) {
-    Study<2> careful = *study;
-    careful.optimizer.step = step;
-    careful.optimizer.redistance_every = 0;
-    std::optional<Trial<2>> first;
-    const auto optimizer = optimizer_of(careful);
-    auto state = optimizer.start(careful.initial, [](const auto&, const auto&) {});
-    ASSERT_TRUE(state) << state.failure().detail;
-    // Its own spline, from which moves begin.
-    const double before = state->evaluation.function("objective").value;
-    const auto proposals = proposals_from(optimizer.evolver(), careful.optimizer, *state);
+  for (const double step : {0.2, 0.1, 0.05}) {
+    OptimizationState<2> state = *second;
+    state.step = step;
+    state.memory = {};
+    const auto proposals = proposals_from(optimizer->evolver(), study->optimizer, state);
     ASSERT_TRUE(proposals);
     const auto move = (*proposals)->move(step);
     ASSERT_TRUE(move);
-    ASSERT_EQ(move->radii.size(), 1u);
-    EXPECT_NE(move->radii.front(), 0.268);
-    optimizer.advance(
-        *state, [&](const Trial<2>& trial, const auto&) { first = trial; }, [] { return false; });
+    EXPECT_GT(std::abs(move->radii.front() - radius), 0.2 * step * 0.01);
+    std::optional<Trial<2>> first;
+    optimizer->advance(
+        state, [&](const Trial<2>& trial, const auto&) { first = first ? first : trial; }, on);
     ASSERT_TRUE(first && first->evaluation);
     const double change = first->evaluation->function("objective").value - before,
                  error = std::abs(change / move->objective_change - 1);
-    EXPECT_LT(error, 10 * step);
+    EXPECT_LT(error, 0.5 * step);
     if (last > 0) {
       EXPECT_LT(error, 0.75 * last) << step;
     }
@@ -249,17 +259,20 @@ class DesignRadiiOfARun : public testing::TemporaryFolder {};
 TEST_F(DesignRadiiOfARun, AreInItsFiles) {
   Case c = case_of(wheel);
   c.optimizer.iterations = 4;
-  c.output.folder = (folder() / "run").string();
+  c.output.folder = "run";
   {
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
+    const auto here = testing::fs::current_path();
+    testing::fs::current_path(folder());
     Signals signals;
     begin_run(c, c.output.folder, signals);
+    testing::fs::current_path(here);
     ::testing::internal::GetCapturedStdout();
     ::testing::internal::GetCapturedStderr();
   }
   const auto last = read_case(folder() / "run/case.toml");
-  ASSERT_TRUE(last.value);
+  ASSERT_TRUE(last.value) << last.problems.front().text();
   const double radius = *last.value->layers[0].outer_radius;
   EXPECT_GT(std::abs(radius - 0.268), 1e-4);
   const auto rows = testing::split(testing::content(folder() / "run/history.csv"), '\n');
