@@ -111,9 +111,11 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
 template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const OptimizationState<dim>& state,
                                                               const Observer& observer) const {
-  const auto trials = trials_.on(state.shape.lattice.grid());
-  if (!trials) return trials.failure();
-  const Trial<dim> trial = trials->again(state);
+  if (const PolarGrid<dim>& grid = state.shape.lattice.grid(); !trials_.is_on(grid)) {
+    const auto there = on(grid);
+    return there ? there->restart(state, observer) : Expected<OptimizationState<dim>>(there.failure());
+  }
+  const Trial<dim> trial = trials_.again(state);
   if (trial.failure) return *trial.failure;
   OptimizationState<dim> next = state;
   next.shape = trial.shape;
@@ -133,8 +135,7 @@ template <int dim>
 std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& state,
                                                        const Observer& observer,
                                                        const std::function<bool()>& stop_requested) const {
-  if (const PolarGrid<dim>& grid = state.shape.lattice.grid();
-      !options_.design_lines.empty() && grid != trials_.grid()) {
+  if (const PolarGrid<dim>& grid = state.shape.lattice.grid(); !trials_.is_on(grid)) {
     const auto there = on(grid);
     if (there) return there->advance(state, observer, stop_requested);
     observer(trials_.without_shape(state, 0, state.step, there.failure()), state);
@@ -279,7 +280,7 @@ template <int dim>
 OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<dim>& state,
                                                       const Proposals<dim>& proposals, const Move<dim>& move,
                                                       const Trial<dim>& trial) const {
-  const auto there = trials_.on(trial.shape.lattice.grid());  // where it was evaluated
+  const auto evolver = trials_.evolver_of(trial.shape.lattice.grid());
   const bool waits = options_.method == Method::descent && trial.halvings > 0;
   const auto count = [&](int every, int since) { return !waits && is_due(every, since) ? 0 : since + 1; };
   OptimizationState<dim> next{.shape = trial.shape,
@@ -290,8 +291,7 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
                               .step = proposals.next_step(move, *trial.evaluation),
                               .since_redistance = count(options_.redistance_every, state.since_redistance),
                               .since_smoothing = count(options_.smooth_every, state.since_smoothing),
-                              .memory = proposals.remembered(move, trial.shape, *trial.evaluation,
-                                                             there ? there->evolver() : evolver()),
+                              .memory = proposals.remembered(move, trial.shape, *trial.evaluation, *evolver),
                               .history = state.history,
                               .history_begin = state.history_begin,
                               .final_widths = state.final_widths};

@@ -108,10 +108,17 @@ Trials<dim>::Trials(const PolarGrid<dim>& grid, Setting<dim> setting, const Opti
 
 template <int dim>
 Expected<Trials<dim>> Trials<dim>::on(const PolarGrid<dim>& grid) const {
-  if (grid == grid_ || options_.design_lines.empty()) return *this;
+  if (is_on(grid)) return *this;
   auto setting = setting_on_(grid);
   if (!setting) return setting.failure();
   return Trials(grid, *std::move(setting), options_, setting_on_);
+}
+
+template <int dim>
+std::shared_ptr<const Evolver<dim>> Trials<dim>::evolver_of(const PolarGrid<dim>& grid) const {
+  if (is_on(grid)) return evolver_;
+  const auto there = on(grid);
+  return there ? there->evolver_ : evolver_;
 }
 
 template <int dim>
@@ -149,18 +156,17 @@ Trial<dim> Trials<dim>::again(const OptimizationState<dim>& state) const {
 template <int dim>
 Trial<dim> Trials<dim>::moved(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
                               const Move<dim>& move, int halvings) const {
-  const Stopwatch watch;
   Trial<dim> trial = without_shape(state, halvings, move.step, {});
   trial.max_velocity = largest_magnitude(move.velocity);
   trial.predicted = move.model_decrease;
-  const auto there = on(grid_after(state.shape.lattice.grid(), options_, move));
-  if (!there) {
+  const PolarGrid<dim> grid = grid_after(state.shape.lattice.grid(), options_, move);
+  if (is_on(grid)) {
+    evaluate_moved(state, move, halvings == 0, trial);
+  } else if (const auto there = on(grid)) {
+    there->evaluate_moved(state, move, halvings == 0, trial);
+  } else {
     trial.failure = there.failure();
-    return trial;
   }
-  auto shape = there->moved_shape(state, move, halvings == 0);
-  trial.evolution_seconds = watch.seconds();
-  there->evaluate(std::move(shape), &state.evaluation, trial);
   if (!trial.failure)
     trial.failure =
         check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), move.objective_change);
@@ -171,6 +177,16 @@ Trial<dim> Trials<dim>::moved(const OptimizationState<dim>& state, const Proposa
   trial.verdict = proposals.accepts(move, *trial.evaluation) ? Verdict::accepted : Verdict::objective_rose;
   if (trial.verdict == Verdict::accepted) add_changes(state.shape, trial);
   return trial;
+}
+
+/// Gives the trial the state's shape after the move, on the own grid, and evaluates it.
+template <int dim>
+void Trials<dim>::evaluate_moved(const OptimizationState<dim>& state, const Move<dim>& move, bool is_reshaped,
+                                 Trial<dim>& trial) const {
+  const Stopwatch watch;
+  auto shape = moved_shape(state, move, is_reshaped);
+  trial.evolution_seconds = watch.seconds();
+  evaluate(std::move(shape), &state.evaluation, trial);
 }
 
 /// The state's shape after the move, on the own grid, with whose lines it moves.

@@ -50,7 +50,10 @@ class Trials {
   /// The same with another evaluation of the same functions.
   Trials with(EvaluateShape<dim> evaluate) const;
 
-  const PolarGrid<dim>& grid() const { return grid_; }
+  /// Whether shapes of that grid are moved and evaluated here.
+  bool is_on(const PolarGrid<dim>& grid) const { return options_.design_lines.empty() || grid == grid_; }
+  /// Of shapes that were evaluated on that grid.
+  std::shared_ptr<const Evolver<dim>> evolver_of(const PolarGrid<dim>& grid) const;
   /// The same on another grid.
   Expected<Trials> on(const PolarGrid<dim>& grid) const;
 
@@ -93,6 +96,8 @@ class Trials {
   bool is_in_reach(double measure) const;
   void name_target(double from, double to, double target, Failure& failure) const;
 
+  void evaluate_moved(const OptimizationState<dim>& state, const Move<dim>& move, bool is_reshaped,
+                      Trial<dim>& trial) const;
   ShapeResult<dim> moved_shape(const OptimizationState<dim>& state, const Move<dim>& move,
                                bool is_reshaped) const;
 

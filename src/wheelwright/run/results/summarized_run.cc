@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/optimization/optimizer/constraints.h"
@@ -35,6 +36,15 @@ std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& sta
   return result;
 }
 
+template <int dim>
+std::vector<ChosenRadius> chosen_radii(const Study<dim>& study, const Study<dim>& given) {
+  std::vector<ChosenRadius> result;
+  const std::vector<DesignRadius> before = design_radii(given.source), after = design_radii(study.source);
+  for (std::size_t k = 0; k < after.size(); ++k)
+    result.push_back({after[k].name, before[k].radius, after[k].radius, after[k].least, after[k].most});
+  return result;
+}
+
 KnownNumber known(const Expected<double>& value) {
   if (value) return *value;
   return to_string(value.failure());
@@ -56,6 +66,7 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const Study<dim>& given,
           .objective = shown_unit(study.source.objective.minimize, study.source.wheel),
           .remarks = std::move(worse),
           .bounded_peaks = bounded_peaks(study.source),
+          .radii = chosen_radii(study, given),
           .changed_start = changed_start(given, start)};
 }
 
