@@ -117,6 +117,22 @@ void check_rest(const Case& c, const DesignRadius& first, Conflicts& found) {
          "use uniformity_annulus, or omit the range"});
 }
 
+/// The rows of the coarsest grid of the run must do too.
+void check_coarse_rows(const Case& c, const std::vector<DesignRadius>& all, Conflicts& found) {
+  const int levels = c.optimizer.coarse_levels;
+  if (levels == 0 || !can_be_halved(c, levels)) return;
+  const Case coarse = on_coarser_grid(c, levels);
+  if (static_cast<int>(radii_of_lines(coarse).size()) >= coarse.grid.radial_cells) return;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Conflicts there;
+    check_rows(coarse, all, k, there);
+    if (!there.empty())
+      found.push_back({{key_of(&Optimizer::coarse_levels), all[k].key, key_of(&Grid::radial_cells)},
+                       "on the coarse grid: " + there.front().problem,
+                       "use fewer coarse_levels, or a finer grid"});
+  }
+}
+
 /// Whether bands of whole rows at rim and tread are still thick enough at both ends.
 void check_bands(const Case& c, const std::vector<DesignRadius>& all, Conflicts& found) {
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -145,6 +161,7 @@ void design_radius_conflicts(const Case& c, Conflicts& found) {
   if (found.size() > before || static_cast<int>(radii_of_lines(c).size()) >= c.grid.radial_cells) return;
   for (std::size_t k = 0; k < all.size(); ++k) check_rows(c, all, k, found);
   if (found.size() > before) return;
+  check_coarse_rows(c, all, found);
   Conflicts now;
   wheel_conflicts(c, now);
   if (now.empty()) check_bands(c, all, found);
