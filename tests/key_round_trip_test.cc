@@ -54,6 +54,8 @@ std::vector<Struct> variations_of(const Struct& s, const Field& field) {
   } else if constexpr (std::is_same_v<Field, PointField<Struct>> ||
                        std::is_same_v<Field, OptionalPointField<Struct>>) {
     for (const double x : {0.28, 3.0}) add(std::array<double, 2>{x, 1.0 / 30});
+    add(std::array{0.21, 0.23});  // ranges of radii of layers
+    add(std::array{0.33, 0.332});
   } else if constexpr (std::is_same_v<Field, WordField<Struct>> ||
                        std::is_same_v<Field, OptionalWordField<Struct>>) {
     for (const std::string_view word : field.words)

@@ -107,6 +107,24 @@ mean = "held"
                                   6);
 }
 
+TEST_F(Resume, RadiiOfLayersContinueIdentically) {
+  std::string text = small_case_of_any_width(5, R"(
+[[material.layer]]
+name = "core"
+outer_radius = 0.262
+outer_radius_range = [0.25, 0.28]
+youngs_modulus = 900e6
+poissons_ratio = 0.3
+)");
+  // Rows are higher outside of the layer, and the band has two of them.
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"tread_band = 0.035", "tread_band = 0.045"},
+        {"rim_band = 0.0175", "rim_band = 0.02"},
+        {"radius = 0.03", "radius = 0.02"}})
+    text.replace(text.find(from), from.size(), to);
+  expect_the_same_from_every_stop(text, 5);
+}
+
 TEST_F(Resume, PositionsBetweenColumnsContinueIdentically) {
   std::string text = small_case_of_any_width(4, "[objective]\nstrain_energy = 1\nuniformity_dual = 10\n");
   const std::string positions = "positions = 2";

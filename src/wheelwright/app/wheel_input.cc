@@ -7,6 +7,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/checkpoints/resume_point.h"
 #include "wheelwright/shape/cut/measure.h"
@@ -47,10 +48,12 @@ WheelInput<dim> initial_wheel(Case c, const fs::path& file, const Computation& c
           without_control_characters(file.stem().string()), "initial shape"};
 }
 
-/// A run that was stopped on a coarser grid, with that grid as its case's.
+/// A run with the radii of its last shape, and if it was stopped on a coarser grid, with that grid, as its
+/// case's.
 template <int dim>
 RunInput<dim> on_grid_of_checkpoint(RunInput<dim> run) {
   const int level = *level_of(run.source, run.checkpoint.state.shape);
+  run.source = *with_radii_of(run.source, run.checkpoint.state.shape.lattice.grid(), level);
   if (level == 0) return run;
   run.source = on_coarser_grid(std::move(run.source), level);
   InitialShape<dim>& initial = run.checkpoint.initial;

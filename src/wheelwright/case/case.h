@@ -79,6 +79,8 @@ struct MaterialLayer : OrthotropicConstants, FatigueConstants {
   std::optional<double> density = {};      ///< [kg/m^3]
   std::optional<double> loss_factor = {};  ///< tan(delta)
   LayerHoles holes = LayerHoles::allowed;
+  /// Between which the optimizer chooses its radii together with the shape; absent: they stay [m].
+  std::optional<std::array<double, 2>> inner_radius_range = {}, outer_radius_range = {};
   bool operator==(const MaterialLayer&) const = default;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/ground_of.h"
 #include "wheelwright/case/hole_rings.h"
@@ -92,10 +93,11 @@ int levels_for(const Case& c, double cells_per_patch, int most_points) {
   return levels;
 }
 
-/// As many as needed by the load case with the narrowest contact.
+/// As many as needed by the load case with the narrowest contact. Radii that are chosen with the shape do not
+/// change them.
 int most_levels_for(const Case& c, double cells_per_patch, int most_points) {
   int levels = 0;
-  for (const Case& single : single_load_cases(c))
+  for (const Case& single : single_load_cases(at_middle_radii(c)))
     levels = std::max(levels, levels_for(single, cells_per_patch, most_points));
   return levels;
 }
@@ -188,8 +190,44 @@ double sector_angle(const Case& c) { return 2 * pi / c.wheel.sectors; }
 int total_load_positions(const Case& c) { return c.wheel.sectors * c.load.positions; }
 
 namespace {
-/// The height of the row of cells at the tread.
-double tread_row(const Case& c) { return polar_grid<2>(c).row_height(c.grid.radial_cells - 1); }
+template <int dim>
+PolarGrid<dim> grid_of_equal_rows(const Case& c) {
+  PolarGrid<dim> grid{c.wheel.inner_radius, c.wheel.outer_radius, c.wheel.width, c.wheel.sectors,
+                      std::array<int, dim>{}};
+  grid.cells[0] = c.grid.radial_cells;
+  grid.cells[1] = c.grid.angular_cells / c.wheel.sectors;
+  if constexpr (dim == 3) grid.cells[2] = c.grid.axial_cells;
+  return grid;
+}
+
+template <int dim>
+PolarGrid<dim> grid_with_lines_at(const Case& c, const std::vector<double>& radii) {
+  const auto grid = grid_of_equal_rows<dim>(c);
+  return static_cast<int>(radii.size()) < c.grid.radial_cells ? with_lines_at(grid, radii) : grid;
+}
+
+/// The height of the row of cells at the tread. Radii that are chosen with the shape do not change it.
+double tread_row(const Case& c) {
+  return grid_with_lines_at<2>(c, radii_of_lines(at_middle_radii(c))).row_height(c.grid.radial_cells - 1);
+}
+
+/// The grid of a case with design radii: that of the middle of their ranges, whose lines move to the radii.
+/// The rows that are condensed at the tread stay where they are.
+template <int dim>
+PolarGrid<dim> grid_with_design_lines(const Case& c) {
+  const std::vector<double> middle = radii_of_lines(at_middle_radii(c)), radii = radii_of_lines(c);
+  if (middle.size() != radii.size()) return grid_with_lines_at<dim>(c, radii);
+  PolarGrid<dim> grid = grid_with_lines_at<dim>(c, middle);
+  std::vector<FixedLine> fixed;
+  for (std::size_t k = 0; k < radii.size(); ++k)
+    fixed.push_back({grid.nearest_line(middle[k]).line, radii[k]});
+  const int core_rows = grid.cells[0] - tread_rows(c);
+  if (fixed.back().line < core_rows) fixed.push_back({core_rows, grid.radius(core_rows)});
+  const auto is_beyond = [](const FixedLine& a, const FixedLine& b) { return a.radius >= b.radius; };
+  if (std::ranges::adjacent_find(fixed, is_beyond) != fixed.end()) return grid_with_lines_at<dim>(c, radii);
+  grid.fixed_lines = std::move(fixed);
+  return grid;
+}
 }  // namespace
 
 bool minimizes_weighted_sum(const Case& c) { return c.objective.minimize == Quantity(); }
@@ -232,13 +270,10 @@ int tread_rows(const Case& c) {
 
 template <int dim>
 PolarGrid<dim> polar_grid(const Case& c) {
-  PolarGrid<dim> grid{c.wheel.inner_radius, c.wheel.outer_radius, c.wheel.width, c.wheel.sectors,
-                      std::array<int, dim>{}};
-  grid.cells[0] = c.grid.radial_cells;
-  grid.cells[1] = c.grid.angular_cells / c.wheel.sectors;
-  if constexpr (dim == 3) grid.cells[2] = c.grid.axial_cells;
   const auto radii = radii_of_lines(c);
-  return static_cast<int>(radii.size()) < c.grid.radial_cells ? with_lines_at(std::move(grid), radii) : grid;
+  const bool has_design_lines =
+      !radii.empty() && !design_radii(c).empty() && static_cast<int>(radii.size()) < c.grid.radial_cells;
+  return has_design_lines ? grid_with_design_lines<dim>(c) : grid_with_lines_at<dim>(c, radii);
 }
 template decltype(polar_grid<2>) polar_grid<2>;
 template decltype(polar_grid<3>) polar_grid<3>;

@@ -319,6 +319,7 @@ void material_conflicts(const Case& c, Conflicts& found) {
     check_fatigue(c, placed, found);
   }
   check_rows(c, found);
+  design_radius_conflicts(c, found);
   check_cords(c, found);
   check_material_of_annulus(c, found);
   check_named_layers(c, found);

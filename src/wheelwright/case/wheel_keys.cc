@@ -157,6 +157,14 @@ std::vector<Key<Struct>> with_further_constants(std::vector<Key<Struct>> keys) {
   return keys;
 }
 
+Key<MaterialLayer> range_key(std::optional<std::array<double, 2>> MaterialLayer::*member,
+                             std::string_view name, std::string_view meaning) {
+  return {.name = name,
+          .unit = "m",
+          .field = OptionalPointField<MaterialLayer>{member, length, "the radius stays"},
+          .meaning = meaning};
+}
+
 MaterialLayer example_of_a_layer() {
   MaterialLayer layer;
   layer.name = "tyre";
@@ -241,7 +249,12 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
             .meaning = meaning_of_loss_factor},
            {.name = "holes",
             .field = choice<&MaterialLayer::holes>({"allowed", "none"}),
-            .meaning = "none: the layer stays solid, like a protected band of its thickness"}})};
+            .meaning = "none: the layer stays solid, like a protected band of its thickness"},
+           range_key(&MaterialLayer::inner_radius_range, "inner_radius_range",
+                     "[least, largest] radius where the layer may begin: wheelwright run chooses it together "
+                     "with the shape, from inner_radius on"),
+           range_key(&MaterialLayer::outer_radius_range, "outer_radius_range",
+                     "the same where it may end; layers that meet keep meeting")})};
   return sections;
 }
 

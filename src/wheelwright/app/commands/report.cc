@@ -26,19 +26,21 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
   const auto made = make_solver(rolling_model<dim>(with_levels_of_results(run.source)));
   if (!made) return made.failure();
   const StateSolver<dim>& solver = **made;
-  const auto solved = [&](const LevelSet<dim>& shape) {
-    return solver.states(shape, distinct_positions(solver, study->load_cases, shape),
-                         print_contact_progress());
+  const auto solved = [&](const LevelSet<dim>& shape, const StateSolver<dim>& by) {
+    return by.states(shape, distinct_positions(by, study->load_cases, shape), print_contact_progress());
   };
-  const LevelSet<dim>& given = study->initial;
+  const Study<dim> given = given_study(*study, run.checkpoint.initial);
+  const auto made_for_given = make_solver(rolling_model<dim>(with_levels_of_results(given.source)));
+  if (!made_for_given) return made_for_given.failure();
   const OptimizationState<dim>& last = run.checkpoint.state;
-  const auto last_states = solved(last.shape);
+  const auto last_states = solved(last.shape, solver);
   if (!last_states) return last_states.failure();
   const auto summary = summarized_run(
-      *study, run.checkpoint.initial,
-      objective_as_given(*study, run.checkpoint.initial, print_contact_progress()),
-      described(run.source, solver, study->load_cases, given, material_measure(given), solved(given)), last,
-      described(run.source, solver, study->load_cases, last.shape, last.measure, last_states));
+      *study, given, run.checkpoint.initial,
+      objective_as_given(given, run.checkpoint.initial, print_contact_progress()),
+      described(given.source, **made_for_given, given.load_cases, given.initial,
+                material_measure(given.initial), solved(given.initial, **made_for_given)),
+      last, described(run.source, solver, study->load_cases, last.shape, last.measure, last_states));
   const SolvedShape<dim> shape{&last.shape, &solver, last_states->get()};
   return page_run(report_of_results<dim>(run.folder, run.source, summary, shape, shown_wheel(shape),
                                          run.checkpoint.finished));

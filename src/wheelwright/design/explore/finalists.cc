@@ -8,6 +8,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/design/explore/design_runs.h"
 #include "wheelwright/design/explore/pareto.h"
@@ -94,9 +95,9 @@ SolvedDesign unsolved(std::string why, bool may_be_stored) {
 }
 
 SolvedDesign solved_on_finer_grid(const RatedDesign& of, const fs::path& run, const Interrupt& interrupt) {
-  const Case c = with_levels_of_results(of.design.source);
   const auto shape = last_shape(of.design, run);
   if (!shape) return unsolved("its run did not end on its own grid", false);
+  const Case c = with_levels_of_results(*with_radii_of(of.design.source, shape->lattice.grid()));
   const auto study = make_study<2>(c);
   if (!study) return unsolved(to_string(study.failure()), true);
   const auto finer = finer_shape<2>(c, *study->solver, *shape);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "wheelwright/mechanics/rolling/shape_gradient.h"
+#include "wheelwright/mechanics/rolling/radius_gradient.h"
 #include "wheelwright/mechanics/rolling/topological_derivative.h"
 
 namespace wheelwright {
@@ -68,11 +68,11 @@ std::optional<Failure> add_growth(const RollingProblem<dim>& problem, const Roll
   if (derivatives.empty()) return {};
   const auto unloaded = problem.without_load(s);
   if (!unloaded) return unloaded.failure();
-  const auto of_growth = solve_adjoints<dim>(problem, *unloaded, derivatives);
+  const auto of_growth = adjoint_gradients<dim>(problem, *unloaded, derivatives);
   if (!of_growth) return of_growth.failure();
-  const ShapeGradients added = shape_gradients<dim>(problem, *unloaded, derivatives, *of_growth);
-  add(added.densities, gradients.densities);
-  add(added.edge_densities, gradients.edge_densities);
+  add(of_growth->gradients.densities, gradients.densities);
+  add(of_growth->gradients.edge_densities, gradients.edge_densities);
+  add(of_growth->gradients.by_radius, gradients.by_radius);
   return {};
 }
 

@@ -105,6 +105,8 @@ class WholeState : public State<3> {
         const std::vector<double> images = densities;
         densities.insert(densities.end(), images.begin(), images.end());
       }
+    for (auto& derivatives : gradients->by_radius)
+      for (double& derivative : derivatives) derivative *= 2;
     return gradients;
   }
 

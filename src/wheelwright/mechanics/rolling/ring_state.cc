@@ -8,8 +8,8 @@
 #include "wheelwright/mechanics/rolling/energy_by_harmonic.h"
 #include "wheelwright/mechanics/rolling/growth_gradient.h"
 #include "wheelwright/mechanics/rolling/neumann_to_dirichlet.h"
+#include "wheelwright/mechanics/rolling/radius_gradient.h"
 #include "wheelwright/mechanics/rolling/ring_displacement.h"
-#include "wheelwright/mechanics/rolling/shape_gradient.h"
 #include "wheelwright/mechanics/rolling/topological_derivative.h"
 #include "wheelwright/mechanics/rolling/turned_state.h"
 #include "wheelwright/mechanics/state/strain_peaks.h"
@@ -57,14 +57,13 @@ class RingState : public State<dim> {
 
   Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<dim>> functions) const override {
+    auto found = adjoint_gradients<dim>(problem_, solution_, functions);
+    if (!found) return found.failure();
+    auto& [adjoints, gradients] = *found;
     Stopwatch watch;
-    const auto adjoints = solve_adjoints(problem_, solution_, functions);
-    if (!adjoints) return adjoints.failure();
-    const double adjoint_seconds = watch.lap();
-    auto gradients = wheelwright::shape_gradients<dim>(problem_, solution_, functions, *adjoints);
-    if (auto failure = add_growth<dim>(problem_, solution_, functions, *adjoints, gradients)) return *failure;
-    gradients.phases = {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}};
-    return gradients;
+    if (auto failure = add_growth<dim>(problem_, solution_, functions, adjoints, gradients)) return *failure;
+    gradients.phases.back().seconds += watch.lap();
+    return std::move(gradients);
   }
 
   Expected<std::vector<std::vector<double>>> topological_derivatives(

@@ -51,6 +51,12 @@ std::optional<Failure> unsupported_material(const RollingModel<dim>& model) {
     if (model.grid.nearest_line(cord.radius).line > rows - model.tread.rows)
       return Failure{FailureReason::unsupported_model,
                      "a cord lies in the rows that are condensed at the tread"};
+  for (const int line : model.design_lines)
+    if (std::ranges::find(model.grid.fixed_lines, line, &FixedLine::line) == model.grid.fixed_lines.end() ||
+        model.grid.equal_rows(line).end > rows - model.tread.rows)
+      return Failure{FailureReason::unsupported_model,
+                     "derivatives are wanted with respect to the radius of a line that is not fixed, or that "
+                     "stretches rows that are condensed at the tread"};
   for (int row = 0; row < model.grid.cells[0]; ++row) {
     const MaterialLaw<dim>& law = model.materials.in_row(model.grid, row);
     const Material* isotropic = law.isotropic();

@@ -5,24 +5,13 @@
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/mechanics/rolling/energy_weights.h"
+#include "wheelwright/mechanics/rolling/integrands.h"
 #include "wheelwright/mechanics/rolling/work_of_loads.h"
 #include "wheelwright/shape/geometry/mirror.h"
 
 namespace wheelwright {
 
 namespace {
-
-/// Strains of some points of an element on its dofs, side by side.
-template <int dim>
-Matrix strain_maps(const ElasticElement<dim>& element,
-                   std::span<const typename ElasticElement<dim>::Point> points) {
-  Matrix strains(element.n_dofs(), n_strains<dim> * static_cast<int>(points.size()));
-  for (size_t q = 0; q < points.size(); ++q)
-    for (int k = 0; k < n_strains<dim>; ++k)
-      std::copy_n(points[q].strain[k].begin(), element.n_dofs(),
-                  strains.column(n_strains<dim> * static_cast<int>(q) + k));
-  return strains;
-}
 
 /// Linear maps from a cell's dofs, one column each, in threes for every point of its moving boundary: the
 /// trace of the strain, div u, and div u projected on the part of the cell that `material` holds.
@@ -80,20 +69,6 @@ std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const Cut
       for (auto& q : cell.edges) q.weight /= 2;
     }
   return cells;
-}
-
-/// sum over the load cases of m_j factor_i M(u_j) at one point.
-template <int dim>
-double integrand(const RollingSolution<dim>& s, const StrainsAtPoint<dim>& point,
-                 std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
-  std::vector<double> values(point.n_cases());
-  double sum = 0;
-  for (const auto& [density, factors] : integrals) {
-    density->densities(point, values);
-    for (int j = 0; j < point.n_cases(); ++j)
-      sum += s.positions.multiplicities[j / point.n_sectors] * factors[j / point.n_sectors] * values[j];
-  }
-  return sum;
 }
 
 /// The densities of all functions, each of its positions as often as it counts.
@@ -209,7 +184,8 @@ class Densities {
     const Matrix of_cases = product(s_.displacement.weights, Op::none, strain_u, Op::none);
     for (int q = 0; q < static_cast<int>(densities.size()); ++q)
       densities[q] += integrand<dim>(
-          s_, {strain_columns<dim>(of_cases, n_strains<dim> * q), s_.ring.n_sectors(), law}, integrals);
+          s_.positions, {strain_columns<dim>(of_cases, n_strains<dim> * q), s_.ring.n_sectors(), law},
+          integrals);
   }
 
   const RollingProblem<dim>& problem_;
@@ -316,6 +292,7 @@ ShapeGradients shape_gradients(const RollingProblem<dim>& problem, const Rolling
   });
   return {.densities = joined(functions.size(), boundary),
           .edge_densities = joined(functions.size(), edges),
+          .by_radius = {},
           .phases = {}};
 }
 

@@ -76,6 +76,10 @@ struct RollingModel : WheelLoads<dim> {
   double camber =
       0;  ///< by which the wheel leans, its side at larger z closer to the ground; when dim = 3 [rad]
   int n_positions = 8;  ///< N_d, load positions of one sector
+  /// The fixed lines of the grid (PolarGrid::fixed_lines) with respect to whose radii functions are
+  /// differentiated, counted from the rim: edges of layers. A line stretches the rows up to the next fixed
+  /// lines, none of which may be condensed at the tread.
+  std::vector<int> design_lines = {};
 
   const WheelLoads<dim>& loads() const { return *this; }
   WheelLoads<dim>& loads() { return *this; }

@@ -57,6 +57,9 @@ struct StrainPeaks {
 struct ShapeGradients {
   std::vector<std::vector<double>> densities;       ///< [function][point of State::boundary()]
   std::vector<std::vector<double>> edge_densities;  ///< [function][point of State::edges()]
+  /// Derivatives with respect to the radii of the model's design lines, [function][line]. The shape moves
+  /// with the rows that a line stretches: its nodal values stay as they are.
+  std::vector<std::vector<double>> by_radius;
   std::vector<PhaseTime> phases;  ///< wall times of the adjoint problems and of the densities
 };
 

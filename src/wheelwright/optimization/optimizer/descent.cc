@@ -79,8 +79,8 @@ double DescentProposals<dim>::next_step(const Move<dim>& move, const Evaluation<
 }
 
 template <int dim>
-StepMemory DescentProposals<dim>::remembered(const Move<dim>&, const LevelSet<dim>&,
-                                             const Evaluation<dim>&) const {
+StepMemory DescentProposals<dim>::remembered(const Move<dim>&, const LevelSet<dim>&, const Evaluation<dim>&,
+                                             const Evolver<dim>&) const {
   return {};
 }
 

@@ -22,8 +22,8 @@ class DescentProposals final : public Proposals<dim> {
   Expected<Move<dim>> move(double step) const override;
   bool accepts(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
-  StepMemory remembered(const Move<dim>& move, const LevelSet<dim>&,
-                        const Evaluation<dim>& evaluation) const override;
+  StepMemory remembered(const Move<dim>& move, const LevelSet<dim>&, const Evaluation<dim>& evaluation,
+                        const Evolver<dim>& evolver) const override;
 
  private:
   double predicted_change(double step) const;

@@ -31,6 +31,12 @@ constexpr const char* to_string(Method method) {
   return method == Method::descent ? "descent" : "sequential_quadratic";
 }
 
+/// The radius of a line of the grid that is chosen together with the shape.
+struct DesignLine {
+  int line;            ///< a fixed line of the grid, counted from the rim
+  double least, most;  ///< of its radius [m]
+};
+
 struct OptimizerOptions {
   Method method = Method::descent;
   std::string objective = "objective";  ///< the name of the function that is minimized
@@ -52,6 +58,9 @@ struct OptimizerOptions {
   /// done, shapes need not have them; then one is repaired, and all later shapes have them. If the first
   /// shape has holes only about two cells wide, and has these widths, they are enforced from the start.
   FeatureSize final_widths = {};
+  /// The design lines of the evaluation's model, in its order. They need sequential quadratic steps, and a
+  /// ShapeOptimizer that moves lines.
+  std::vector<DesignLine> design_lines = {};
 };
 
 /// Whether OptimizerOptions::final_widths are enforced.

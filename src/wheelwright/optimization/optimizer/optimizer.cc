@@ -66,6 +66,20 @@ ShapeOptimizer<dim>::ShapeOptimizer(const Lattice<dim>& lattice, const Evolution
     : options_(options), trials_(lattice, evolution, options, std::move(evaluate)) {}
 
 template <int dim>
+ShapeOptimizer<dim>::ShapeOptimizer(const PolarGrid<dim>& grid, Setting<dim> setting,
+                                    const OptimizerOptions& options, SettingOn<dim> setting_on)
+    : options_(options), trials_(grid, std::move(setting), options, std::move(setting_on)) {}
+
+template <int dim>
+Expected<ShapeOptimizer<dim>> ShapeOptimizer<dim>::on(const PolarGrid<dim>& grid) const {
+  auto trials = trials_.on(grid);
+  if (!trials) return trials.failure();
+  ShapeOptimizer other = *this;
+  other.trials_ = *std::move(trials);
+  return other;
+}
+
+template <int dim>
 ShapeOptimizer<dim> ShapeOptimizer<dim>::with(Evaluate evaluate) const {
   ShapeOptimizer other = *this;
   other.trials_ = trials_.with(std::move(evaluate));
@@ -97,6 +111,10 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
 template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const OptimizationState<dim>& state,
                                                               const Observer& observer) const {
+  if (const PolarGrid<dim>& grid = state.shape.lattice.grid(); !trials_.is_on(grid)) {
+    const auto there = on(grid);
+    return there ? there->restart(state, observer) : Expected<OptimizationState<dim>>(there.failure());
+  }
   const Trial<dim> trial = trials_.again(state);
   if (trial.failure) return *trial.failure;
   OptimizationState<dim> next = state;
@@ -117,6 +135,12 @@ template <int dim>
 std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& state,
                                                        const Observer& observer,
                                                        const std::function<bool()>& stop_requested) const {
+  if (const PolarGrid<dim>& grid = state.shape.lattice.grid(); !trials_.is_on(grid)) {
+    const auto there = on(grid);
+    if (there) return there->advance(state, observer, stop_requested);
+    observer(trials_.without_shape(state, 0, state.step, there.failure()), state);
+    return StopReason::gave_up;
+  }
   if (state.iteration < options_.iterations && stop_requested()) return StopReason::stop_requested;
   const auto repair = needs_repair(options_, state) ? repair_widths(state, observer) : Repair::nothing;
   if (repair == Repair::interrupted) return StopReason::stop_requested;
@@ -256,6 +280,7 @@ template <int dim>
 OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<dim>& state,
                                                       const Proposals<dim>& proposals, const Move<dim>& move,
                                                       const Trial<dim>& trial) const {
+  const auto evolver = trials_.evolver_of(trial.shape.lattice.grid());
   const bool waits = options_.method == Method::descent && trial.halvings > 0;
   const auto count = [&](int every, int since) { return !waits && is_due(every, since) ? 0 : since + 1; };
   OptimizationState<dim> next{.shape = trial.shape,
@@ -266,7 +291,7 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
                               .step = proposals.next_step(move, *trial.evaluation),
                               .since_redistance = count(options_.redistance_every, state.since_redistance),
                               .since_smoothing = count(options_.smooth_every, state.since_smoothing),
-                              .memory = proposals.remembered(move, trial.shape, *trial.evaluation),
+                              .memory = proposals.remembered(move, trial.shape, *trial.evaluation, *evolver),
                               .history = state.history,
                               .history_begin = state.history_begin,
                               .final_widths = state.final_widths};

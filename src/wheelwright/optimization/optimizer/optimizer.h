@@ -68,8 +68,15 @@ class ShapeOptimizer {
   ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                  const OptimizerOptions& options, Evaluate evaluate);
 
+  /// In the setting of one grid, with those of the grids to which design lines move.
+  ShapeOptimizer(const PolarGrid<dim>& grid, Setting<dim> setting, const OptimizerOptions& options,
+                 SettingOn<dim> setting_on);
+
   /// The same optimizer with another evaluation of the same functions.
   ShapeOptimizer with(Evaluate evaluate) const;
+
+  /// The same optimizer on a grid whose design lines have other radii. Fails as SettingOn does.
+  Expected<ShapeOptimizer> on(const PolarGrid<dim>& grid) const;
 
   /// Evaluates the initial shape, clipped at the protected bands. It is shifted to the target measure if that
   /// is given, controlled exactly, and within measure_rate. The observer sees it as iteration 0.
@@ -90,6 +97,7 @@ class ShapeOptimizer {
   StopReason run(OptimizationState<dim>& state, const Observer& observer,
                  const std::function<bool()>& stop_requested) const;
 
+  /// Of the shapes on its own grid.
   const Evolver<dim>& evolver() const { return trials_.evolver(); }
 
   /// The value that is minimized.

@@ -11,9 +11,11 @@ namespace wheelwright {
 /// A motion of a state's boundary proposed by a method.
 template <int dim>
 struct Move {
-  std::vector<double> velocity;          ///< along the outward normal of the material, at the nodes
-  std::vector<double> deformation = {};  ///< from which it was derived, if any
-  double distance;                       ///< motion of the fastest node [cells]
+  std::vector<double> velocity;  ///< along the outward normal of the material, at the nodes
+  /// From which it was derived, if any: that of the shape, then the changes of the radii of design lines.
+  std::vector<double> deformation = {};
+  std::vector<double> radii = {};  ///< of the design lines after the move; empty: they stay [m]
+  double distance;                 ///< motion of the fastest node [cells]
   double step;     ///< motion of the boundary, or of the fastest node, depending on the method [cells]
   double radius;   ///< maximum requested step [cells]
   double measure;  ///< intended measure of the material
@@ -38,9 +40,9 @@ class Proposals {
   /// The first step to try from an accepted shape [cells].
   virtual double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const = 0;
 
-  /// The memory at an accepted shape.
+  /// The memory at an accepted shape, which `evolver` moves.
   virtual StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape,
-                                const Evaluation<dim>& evaluation) const = 0;
+                                const Evaluation<dim>& evaluation, const Evolver<dim>& evolver) const = 0;
 };
 
 /// Creates the proposals of the method in the options. Fails like the extension of a gradient.

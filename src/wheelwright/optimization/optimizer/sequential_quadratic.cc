@@ -7,6 +7,7 @@
 #include <span>
 
 #include "wheelwright/linalg/add_scaled.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 namespace {
@@ -48,6 +49,24 @@ Nodal scaled(Nodal values, double factor) {
   return values;
 }
 
+void append(const std::vector<double>& values, double factor, Nodal& load) {
+  for (const double value : values) load.push_back(factor * value);
+}
+
+/// The derivatives of the measure with respect to the radii of design lines, if there are any. Those of
+/// shapes without holes there are exactly zero.
+template <int dim>
+std::vector<double> measure_by_radius(const Evaluation<dim>& evaluation, const std::string& objective,
+                                      const PolarGrid<dim>& grid) {
+  if (evaluation.function(objective).by_radius.empty()) return {};
+  const FunctionValue& measure = evaluation.function("volume");
+  std::vector<double> derivatives = measure.by_radius;
+  const double rounding = 1e-9 * measure.value / grid.outer_radius;
+  for (double& derivative : derivatives)
+    if (std::abs(derivative) < rounding) derivative = 0;
+  return derivatives;
+}
+
 /// The derivatives of the objective, of the measure, and of the constraints, as loads.
 template <int dim>
 std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const LevelSet<dim>& shape,
@@ -58,10 +77,12 @@ std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const LevelSet<dim>&
     const auto is_zero = [](double density) { return density == 0; };
     if (!std::ranges::all_of(function.edge_gradient, is_zero))
       add_scaled(1, motion.on(shape, evaluation.edges).load(scaled(function.edge_gradient, factor)), load);
+    append(function.by_radius, factor, load);
     return load;
   };
   std::vector<Nodal> result{load_of(evaluation.function(objective), 1),
                             motion.load(std::vector<double>(evaluation.boundary.size(), 1.0))};
+  append(measure_by_radius(evaluation, objective, shape.lattice.grid()), 1, result.back());
   for (const auto& c : constraints) result.push_back(load_of(evaluation.functions[c.function], 1 / c.scale));
   return result;
 }
@@ -101,14 +122,14 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
     : evolver_(evolver),
       options_(options),
       state_(state),
+      space_(evolver.deformations(), state.shape.lattice.grid(), options.design_lines.size()),
       constraints_(bound_constraints(state.evaluation)),
       widths_(narrow_widths(state.shape, widths_after(evolver.features(), options, state),
                             2 * state.step * state.shape.lattice.grid().resolution())),
       motion_(evolver.deformations().motion_of(state.shape, state.evaluation.boundary)) {
-  const auto& space = evolver_.deformations();
   for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.move);
   for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.change);
-  for (const auto& deformation : pairs_.deformations) pairs_.loads.push_back(space.load(deformation));
+  for (const auto& deformation : pairs_.deformations) pairs_.loads.push_back(space_.load(deformation));
   pairs_.known = pairs_.products();
 }
 
@@ -116,12 +137,16 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
 template <int dim>
 typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_of(
     const BoundaryMotion<dim>& motion) const {
-  const auto& space = evolver_.deformations();
   Span span{.deformations = {},
             .loads = loads(motion, state_.shape, state_.evaluation, options_.objective, constraints_),
             .known = pairs_.known};
-  for (const auto& width : widths_) span.loads.push_back(gap_load(motion, width));
-  for (const auto& load : span.loads) span.deformations.push_back(space.representative(load));
+  const std::size_t size = span.loads.front().size();
+  for (const auto& width : widths_) {
+    span.loads.push_back(gap_load(motion, width));
+    span.loads.back().resize(size, 0.0);
+  }
+  for (std::size_t k = 0; k < space_.n_radii(); ++k) span.loads.push_back(space_.unit_load(size, k));
+  for (const auto& load : span.loads) span.deformations.push_back(space_.representative(load));
   span.loads.insert(span.loads.end(), pairs_.loads.begin(), pairs_.loads.end());
   span.deformations.insert(span.deformations.end(), pairs_.deformations.begin(), pairs_.deformations.end());
   return span;
@@ -151,12 +176,14 @@ Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& 
   auto penalties = this->penalties();
   const auto found = step_in(motion, span, state_.measure - measure, step, penalties);
   auto deformation = combination(found.coefficients, span.deformations);
-  auto velocity = motion.speeds_at_nodes(deformation);
+  auto radii = radii_after(deformation);
+  auto velocity = motion.speeds_at_nodes(space_.of_shape(deformation));
   const double resolution = state_.shape.lattice.grid().resolution();
   const double distance = largest_magnitude(velocity) / resolution,
-               farthest = largest_magnitude(motion.speeds(deformation));
+               farthest = largest_magnitude(speeds(motion, deformation));
   return {.velocity = std::move(velocity),
           .deformation = std::move(deformation),
+          .radii = std::move(radii),
           .distance = distance,
           .step = farthest / resolution,
           .radius = step,
@@ -164,8 +191,35 @@ Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& 
           .objective_change = found.slope,
           .model_decrease = found.decrease,
           .multipliers = {found.multipliers.begin(),
-                          found.multipliers.end() - static_cast<std::ptrdiff_t>(widths_.size())},
+                          found.multipliers.end() -
+                              static_cast<std::ptrdiff_t>(widths_.size() + 2 * space_.n_radii())},
           .penalties = penalties};
+}
+
+/// The speeds of the points of the boundary, then those of the design lines.
+template <int dim>
+std::vector<double> SequentialQuadraticProposals<dim>::speeds(const BoundaryMotion<dim>& motion,
+                                                              std::span<const double> deformation) const {
+  auto result = motion.speeds(space_.of_shape(deformation));
+  for (const double change : space_.of_radii(deformation)) result.push_back(change);
+  return result;
+}
+
+/// The radii of the design lines after a deformation, within their bounds. Changes of less than a millionth
+/// of a cell are left out of the deformation: another grid would cost more than they gain.
+template <int dim>
+std::vector<double> SequentialQuadraticProposals<dim>::radii_after(std::vector<double>& deformation) const {
+  const PolarGrid<dim>& grid = state_.shape.lattice.grid();
+  const double least_change = 1e-6 * grid.resolution();
+  std::vector<double> radii;
+  for (std::size_t k = 0; k < space_.n_radii(); ++k) {
+    const auto& [line, least, most] = options_.design_lines[k];
+    double& change = deformation[deformation.size() - space_.n_radii() + k];
+    const double now = radius_of_fixed_line(grid, line), next = std::clamp(now + change, least, most);
+    change = std::abs(next - now) < least_change ? 0 : next - now;
+    radii.push_back(change == 0 ? now : next);
+  }
+  return radii;
 }
 
 /// Raises penalties until the linearized violation decreases by at least half of its possible decrease.
@@ -196,8 +250,16 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<di
                                  .is_equality = false,
                                  .penalty = of_widths,
                                  .is_in_merit = false});
+  for (std::size_t k = 0; k < space_.n_radii(); ++k) {
+    const auto& [line, least, most] = options_.design_lines[k];
+    const double radius = radius_of_fixed_line(state_.shape.lattice.grid(), line);
+    const int vector = static_cast<int>(2 + constraints_.size() + widths_.size() + k);
+    for (const auto& [sign, gap] : {std::pair{1.0, radius - most}, {-1.0, least - radius}})
+      model.constraints.push_back(
+          {.vector = vector, .sign = sign, .gap = gap, .is_equality = false, .is_in_merit = false});
+  }
   std::vector<std::vector<double>> at_boundary;
-  for (const auto& deformation : span.deformations) at_boundary.push_back(motion.speeds(deformation));
+  for (const auto& deformation : span.deformations) at_boundary.push_back(speeds(motion, deformation));
   const auto with = [&](double factor) {
     for (size_t i = 0; i < penalties.size(); ++i)
       model.constraints[first + i].penalty = factor * penalties[i];
@@ -268,12 +330,15 @@ double SequentialQuadraticProposals<dim>::next_step(const Move<dim>& move,
 /// The pair of the move and the change of the Lagrangian's derivative.
 template <int dim>
 StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, const LevelSet<dim>& shape,
-                                                         const Evaluation<dim>& evaluation) const {
+                                                         const Evaluation<dim>& evaluation,
+                                                         const Evolver<dim>& evolver) const {
   StepMemory memory = state_.memory;
   memory.penalties = move.penalties;
   memory.multipliers.assign(move.multipliers.end() - static_cast<std::ptrdiff_t>(constraints_.size()),
                             move.multipliers.end());
-  const auto& space = evolver_.deformations();
+  const DesignSpace<dim> space(evolver.deformations(), shape.lattice.grid(), space_.n_radii());
+  if (!move.radii.empty())  // another inner product: the loads stay
+    for (auto& pair : memory.pairs) pair.change = space.representative(space_.load(pair.change));
   const double unit = 1 / largest_magnitude(move.deformation);
   CurvaturePair pair{.move = move.deformation, .change = {}};
   Nodal change(move.deformation.size(), 0.0);
@@ -287,7 +352,7 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, 
     const auto derivatives = loads(motion, psi, e, options_.objective, constraints_);
     for (size_t i = 0; i < derivatives.size(); ++i) add_scaled(factor * weights[i], derivatives[i], change);
   };
-  add_loads(unit, space.motion_of(shape, evaluation.boundary), shape, evaluation);
+  add_loads(unit, evolver.deformations().motion_of(shape, evaluation.boundary), shape, evaluation);
   add_loads(-unit, motion_, state_.shape, state_.evaluation);
   pair.change = space.representative(change);
   const double move_square = product(space.load(pair.move), pair.move),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wheelwright/optimization/optimizer/constraints.h"
+#include "wheelwright/optimization/optimizer/design_space.h"
 #include "wheelwright/optimization/optimizer/proposals.h"
 #include "wheelwright/optimization/optimizer/quadratic_step.h"
 #include "wheelwright/shape/evolution/widths.h"
@@ -24,8 +25,8 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   Expected<Move<dim>> move(double step) const override;
   bool accepts(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
-  StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape,
-                        const Evaluation<dim>& evaluation) const override;
+  StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape, const Evaluation<dim>& evaluation,
+                        const Evolver<dim>& evolver) const override;
 
  private:
   /// Deformations and their loads: the representatives of derivatives, then the moves of the pairs, then
@@ -42,10 +43,13 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
                         std::vector<double>& penalties) const;
   std::vector<double> penalties() const;
   double noise() const;
+  std::vector<double> speeds(const BoundaryMotion<dim>& motion, std::span<const double> deformation) const;
+  std::vector<double> radii_after(std::vector<double>& deformation) const;
 
   const Evolver<dim>& evolver_;
   const OptimizerOptions& options_;
   const OptimizationState<dim>& state_;
+  DesignSpace<dim> space_;
   std::vector<BoundConstraint> constraints_;
   std::vector<Width<dim>> widths_;  ///< that a step could bring below their minimum
   BoundaryMotion<dim> motion_;      ///< of the state's shape

@@ -11,17 +11,12 @@
 #include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/evolution/volume.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Quadratic steps require shapes whose motion can be predicted.
-EvolutionOptions in_space_of(Method method, EvolutionOptions evolution) {
-  evolution.space = method == Method::sequential_quadratic ? ShapeSpace::spline : ShapeSpace::nodal;
-  return evolution;
-}
 
 template <class Points>
 double boundary_measure(const Points& points) {
@@ -63,6 +58,14 @@ std::optional<Failure> check_jump(double before, double after, double predicted)
                              before, after, before + predicted)};
 }
 
+/// The grid whose design lines have moved.
+template <int dim>
+PolarGrid<dim> grid_after(PolarGrid<dim> grid, const OptimizerOptions& options, const Move<dim>& move) {
+  for (std::size_t k = 0; k < move.radii.size(); ++k)
+    grid = with_fixed_line_at(std::move(grid), options.design_lines[k].line, move.radii[k]);
+  return grid;
+}
+
 /// The trial of an unmoved shape.
 template <int dim>
 Trial<dim> unmoved(int iteration, LevelSet<dim> shape) {
@@ -78,13 +81,45 @@ Trial<dim> unmoved(int iteration, LevelSet<dim> shape) {
 
 }  // namespace
 
+/// Quadratic steps require shapes whose motion can be predicted.
+EvolutionOptions in_space_of(Method method, EvolutionOptions evolution) {
+  evolution.space = method == Method::sequential_quadratic ? ShapeSpace::spline : ShapeSpace::nodal;
+  return evolution;
+}
+
 template <int dim>
 Trials<dim>::Trials(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                     const OptimizerOptions& options, EvaluateShape<dim> evaluate)
-    : evolver_(std::make_shared<const Evolver<dim>>(lattice, in_space_of(options.method, evolution))),
+    : grid_(lattice.grid()),
+      evolver_(std::make_shared<const Evolver<dim>>(lattice, in_space_of(options.method, evolution))),
       whole_(sector_measure<dim>(lattice.grid())),
       options_(options),
       evaluate_(std::move(evaluate)) {}
+
+template <int dim>
+Trials<dim>::Trials(const PolarGrid<dim>& grid, Setting<dim> setting, const OptimizerOptions& options,
+                    SettingOn<dim> setting_on)
+    : grid_(grid),
+      evolver_(std::move(setting.evolver)),
+      setting_on_(std::move(setting_on)),
+      whole_(sector_measure<dim>(grid)),
+      options_(options),
+      evaluate_(std::move(setting.evaluate)) {}
+
+template <int dim>
+Expected<Trials<dim>> Trials<dim>::on(const PolarGrid<dim>& grid) const {
+  if (is_on(grid)) return *this;
+  auto setting = setting_on_(grid);
+  if (!setting) return setting.failure();
+  return Trials(grid, *std::move(setting), options_, setting_on_);
+}
+
+template <int dim>
+std::shared_ptr<const Evolver<dim>> Trials<dim>::evolver_of(const PolarGrid<dim>& grid) const {
+  if (is_on(grid)) return evolver_;
+  const auto there = on(grid);
+  return there ? there->evolver_ : evolver_;
+}
 
 template <int dim>
 Trials<dim> Trials<dim>::with(EvaluateShape<dim> evaluate) const {
@@ -121,20 +156,17 @@ Trial<dim> Trials<dim>::again(const OptimizationState<dim>& state) const {
 template <int dim>
 Trial<dim> Trials<dim>::moved(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
                               const Move<dim>& move, int halvings) const {
-  const Stopwatch watch;
   Trial<dim> trial = without_shape(state, halvings, move.step, {});
   trial.max_velocity = largest_magnitude(move.velocity);
   trial.predicted = move.model_decrease;
-  const bool is_reshaped = halvings == 0;
-  auto shape = next_shape(
-      *evolver_, state.shape,
-      {.velocity = move.velocity,
-       .distance = move.distance * state.shape.lattice.grid().resolution(),
-       .redistances = is_reshaped && is_due(options_.redistance_every, state.since_redistance),
-       .smooths = is_reshaped && is_due(options_.smooth_every, state.since_smoothing)},
-      requirements(move.measure, boundary_measure(state.evaluation.boundary), widths_after(state)));
-  trial.evolution_seconds = watch.seconds();
-  evaluate(std::move(shape), &state.evaluation, trial);
+  const PolarGrid<dim> grid = grid_after(state.shape.lattice.grid(), options_, move);
+  if (is_on(grid)) {
+    evaluate_moved(state, move, halvings == 0, trial);
+  } else if (const auto there = on(grid)) {
+    there->evaluate_moved(state, move, halvings == 0, trial);
+  } else {
+    trial.failure = there.failure();
+  }
   if (!trial.failure)
     trial.failure =
         check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), move.objective_change);
@@ -147,10 +179,46 @@ Trial<dim> Trials<dim>::moved(const OptimizationState<dim>& state, const Proposa
   return trial;
 }
 
+/// Gives the trial the state's shape after the move, on the own grid, and evaluates it.
+template <int dim>
+void Trials<dim>::evaluate_moved(const OptimizationState<dim>& state, const Move<dim>& move, bool is_reshaped,
+                                 Trial<dim>& trial) const {
+  const Stopwatch watch;
+  auto shape = moved_shape(state, move, is_reshaped);
+  trial.evolution_seconds = watch.seconds();
+  evaluate(std::move(shape), &state.evaluation, trial);
+}
+
+/// The state's shape after the move, on the own grid, with whose lines it moves.
+template <int dim>
+ShapeResult<dim> Trials<dim>::moved_shape(const OptimizationState<dim>& state, const Move<dim>& move,
+                                          bool is_reshaped) const {
+  const PolarGrid<dim>& before = state.shape.lattice.grid();
+  const ShapeMotion motion{
+      .velocity = move.velocity,
+      .distance = move.distance * before.resolution(),
+      .redistances = is_reshaped && is_due(options_.redistance_every, state.since_redistance),
+      .smooths = is_reshaped && is_due(options_.smooth_every, state.since_smoothing)};
+  const auto required =
+      requirements(move.measure, boundary_measure(state.evaluation.boundary), widths_after(state));
+  if (before == grid_) return next_shape(*evolver_, state.shape, motion, required);
+  LevelSet<dim> psi = state.shape;
+  if (motion.distance > 0) {
+    const auto here = on(before);
+    auto moved = here ? here->evolver().move(psi, motion.velocity, motion.distance)
+                      : Expected<LevelSet<dim>>(here.failure());
+    if (!moved) return UnfinishedShape<dim>{psi, unknown, {}, moved.failure()};
+    psi = *std::move(moved);
+  }
+  psi.lattice = Lattice<dim>(grid_, psi.lattice.degree());
+  return reshaped(*evolver_, evolver_->keep_bands(psi), motion.redistances, motion.smooths, required);
+}
+
 template <int dim>
 Trial<dim> Trials<dim>::at_rest(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
                                 Move<dim> move, int halvings) const {
   move.distance = 0;
+  move.radii.clear();
   move.step = 0;
   move.measure = state.measure;
   move.objective_change = 0;

@@ -18,6 +18,21 @@ template <int dim>
 using EvaluateShape =
     std::function<Expected<Evaluated<dim>>(const CutShape<dim>&, const Evaluation<dim>* previous)>;
 
+/// What moves and evaluates the shapes of one grid.
+template <int dim>
+struct Setting {
+  std::shared_ptr<const Evolver<dim>> evolver;
+  EvaluateShape<dim> evaluate;
+};
+
+/// The setting of a grid whose design lines have other radii (OptimizerOptions::design_lines). Fails as the
+/// solver of states does.
+template <int dim>
+using SettingOn = std::function<Expected<Setting<dim>>(const PolarGrid<dim>&)>;
+
+/// The evolution in the space of shapes in which a method moves.
+EvolutionOptions in_space_of(Method method, EvolutionOptions evolution);
+
 /// Whether what is done every so many accepted shapes is due, `since` shapes after the last time.
 constexpr bool is_due(int every, int since) { return every > 0 && since + 1 >= every; }
 
@@ -28,8 +43,19 @@ class Trials {
   Trials(const Lattice<dim>& lattice, const EvolutionOptions& evolution, const OptimizerOptions& options,
          EvaluateShape<dim> evaluate);
 
+  /// In the setting of one grid, with those of others.
+  Trials(const PolarGrid<dim>& grid, Setting<dim> setting, const OptimizerOptions& options,
+         SettingOn<dim> setting_on);
+
   /// The same with another evaluation of the same functions.
   Trials with(EvaluateShape<dim> evaluate) const;
+
+  /// Whether shapes of that grid are moved and evaluated here.
+  bool is_on(const PolarGrid<dim>& grid) const { return options_.design_lines.empty() || grid == grid_; }
+  /// Of shapes that were evaluated on that grid.
+  std::shared_ptr<const Evolver<dim>> evolver_of(const PolarGrid<dim>& grid) const;
+  /// The same on another grid.
+  Expected<Trials> on(const PolarGrid<dim>& grid) const;
 
   /// The first shape of a search, clipped at the protected bands; shifted to the target measure if that is
   /// given, controlled exactly, and within measure_rate.
@@ -70,8 +96,15 @@ class Trials {
   bool is_in_reach(double measure) const;
   void name_target(double from, double to, double target, Failure& failure) const;
 
+  void evaluate_moved(const OptimizationState<dim>& state, const Move<dim>& move, bool is_reshaped,
+                      Trial<dim>& trial) const;
+  ShapeResult<dim> moved_shape(const OptimizationState<dim>& state, const Move<dim>& move,
+                               bool is_reshaped) const;
+
+  PolarGrid<dim> grid_;
   std::shared_ptr<const Evolver<dim>> evolver_;
-  double whole_;  ///< measure of a whole sector, including its holes
+  SettingOn<dim> setting_on_ = {};  ///< empty: no lines move
+  double whole_;                    ///< measure of a whole sector, including its holes
   OptimizerOptions options_;
   EvaluateShape<dim> evaluate_;
 };

@@ -94,7 +94,8 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
                                        std::vector<double>(state.boundary().size(), 0.0),
                                        function.bounds,
                                        std::vector<double>(state.edges().size(), 0.0),
-                                       kind(function.quantity)},
+                                       kind(function.quantity),
+                                       std::vector<double>(state.model().design_lines.size(), 0.0)},
                              .derivatives = std::vector<FunctionalDerivative<dim>>(cases.size())};
   std::vector<double> by_position(positions.size(), 0.0);
   bool has_shares = false;
@@ -104,6 +105,8 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
     result.value.value += weight * term.of_shape;
     for (size_t q = 0; q < term.gradient_of_shape.size(); ++q)
       result.value.gradient[q] += weight * term.gradient_of_shape[q];
+    for (size_t k = 0; k < term.by_radius_of_shape.size(); ++k)
+      result.value.by_radius[k] += weight * term.by_radius_of_shape[k];
     std::vector<double> factors(positions.size(), weight);
     if (term.over_positions) {
       result.value.value += weight * *term.over_positions;
@@ -148,7 +151,8 @@ bool is_finite(const Evaluation<dim>& evaluation) {
   return std::ranges::all_of(evaluation.functions, [](const FunctionValue& function) {
     return std::isfinite(function.value) &&
            std::ranges::all_of(function.gradient, [](double g) { return std::isfinite(g); }) &&
-           std::ranges::all_of(function.edge_gradient, [](double g) { return std::isfinite(g); });
+           std::ranges::all_of(function.edge_gradient, [](double g) { return std::isfinite(g); }) &&
+           std::ranges::all_of(function.by_radius, [](double g) { return std::isfinite(g); });
   });
 }
 
@@ -208,7 +212,7 @@ std::vector<FunctionValue> function_values(const StateSolver<dim>& solver,
   const FunctionalValues<dim> functionals(functions, solver, psi, std::span<const CaseStates<dim>>(of_cases),
                                           nullptr);
   auto values = by_states<dim>(functions, functionals, solver, of_cases, false).values;
-  for (FunctionValue& value : values) value.gradient = value.edge_gradient = {};
+  for (FunctionValue& value : values) value.gradient = value.edge_gradient = value.by_radius = {};
   return values;
 }
 
@@ -249,6 +253,8 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const Lo
         function.gradient[q] += gradients->densities[f][q];
       for (size_t q = 0; q < evaluation.edges.size(); ++q)
         function.edge_gradient[q] += gradients->edge_densities[f][q];
+      for (size_t line = 0; line < function.by_radius.size(); ++line)
+        function.by_radius[line] += gradients->by_radius[f][line];
     }
     evaluation.phases.insert(evaluation.phases.end(), gradients->phases.begin(), gradients->phases.end());
   }

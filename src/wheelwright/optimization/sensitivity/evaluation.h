@@ -29,6 +29,9 @@ struct FunctionValue {
   Bounds bounds;
   std::vector<double> edge_gradient = {};  ///< density at Evaluation::edges
   UnitKind unit = UnitKind::energy;
+  /// Derivatives with respect to the radii of the model's design lines, while the shape moves with the rows
+  /// that they stretch (ShapeGradients::by_radius) [of the function per m].
+  std::vector<double> by_radius = {};
 };
 
 /// A quantity that is monitored but not optimized, over the load positions of one sector.

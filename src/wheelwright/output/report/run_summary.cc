@@ -107,10 +107,18 @@ std::vector<std::string> missing_lines(const RunSummary<dim>& summary) {
   return missing_lines({"before", "after"}, rows(summary));
 }
 
+std::string text(const ChosenRadius& radius) {
+  constexpr double mm = 1e3;
+  return fmt::format("{}: {:.6g} mm, {:.6g} mm before; chosen between {:.6g} and {:.6g} mm", radius.name,
+                     radius.after * mm, radius.before * mm, radius.least * mm, radius.most * mm);
+}
+
 template <int dim>
 std::string summary_table(const RunSummary<dim>& summary) {
   const std::string remarks = remarks_text(summary.remarks);
-  return comparison_table({"before", "after"}, rows(summary)) + stress_lines(summary.after.wheel) +
+  std::string radii;
+  for (const ChosenRadius& radius : summary.radii) radii += text(radius) + '\n';
+  return comparison_table({"before", "after"}, rows(summary)) + stress_lines(summary.after.wheel) + radii +
          (remarks.empty() ? "" : "\nworse than before:\n" + remarks) +
          (summary.changed_start.empty() ? "" : "\n" + summary.changed_start + "\n");
 }
@@ -130,6 +138,12 @@ std::string summary_json(const RunSummary<dim>& summary) {
                                {"after", remark.after},
                                {"text", remark.text},
                                {"constraint", remark.constraint}});
+  for (const ChosenRadius& radius : summary.radii)
+    json["radii"].push_back({{"name", radius.name},
+                             {"before_m", radius.before},
+                             {"after_m", radius.after},
+                             {"least_m", radius.least},
+                             {"largest_m", radius.most}});
   if (!summary.changed_start.empty()) json["changed_start"] = summary.changed_start;
   return json.dump(2) + '\n';
 }

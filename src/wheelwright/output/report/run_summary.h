@@ -56,6 +56,13 @@ double beyond(const SummarizedBound& bound, double value);
 /// says so, and what to do. Empty for others.
 std::string finer_grid_warning(const SummarizedBound& bound);
 
+/// A radius of a layer that a run chose together with the shape [m].
+struct ChosenRadius {
+  std::string name;  ///< e.g. "inner_radius of tyre"
+  double before, after;
+  double least, most;  ///< its range
+};
+
 /// The result of a run, compared with the wheel that its case gives. Both shapes are solved on a tread of the
 /// same resolution.
 template <int dim>
@@ -68,12 +75,16 @@ struct RunSummary {
   ShownUnit objective = shown_unit(UnitKind::energy, dim);
   std::vector<Remark> remarks = {};  ///< what got clearly worse
   std::string bounded_peaks = {};    ///< at how many positions bounds on peaks apply; empty without such
-  std::string changed_start = {};    ///< how the run's first shape differs from the given wheel, if it does
+  std::vector<ChosenRadius> radii = {};
+  std::string changed_start = {};  ///< how the run's first shape differs from the given wheel, if it does
 };
 
 /// The numbers of the two shapes that could not be computed, and why: one line per reason.
 template <int dim>
 std::vector<std::string> missing_lines(const RunSummary<dim>& summary);
+
+/// One readable line.
+std::string text(const ChosenRadius& radius);
 
 /// For display: one line per quantity with both values and the change, what could not be computed and why,
 /// the place of the peak stress, what got clearly worse, and how the run's first shape differs from the given

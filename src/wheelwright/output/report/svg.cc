@@ -167,6 +167,11 @@ std::string with_numbers(const Comparison<dim>& comparison, const std::string& f
   return svg + "</svg>\n";
 }
 
+template <int dim>
+const LayerCircles& layers_before(const Comparison<dim>& comparison) {
+  return comparison.layers_before.empty() ? comparison.layers : comparison.layers_before;
+}
+
 }  // namespace
 
 std::string escape_xml(std::string_view text) {
@@ -237,12 +242,14 @@ std::string comparison_svg(const PolarGrid<2>& grid, const Comparison<2>& compar
   const double scale = 0.5 * wheel_diameter / grid.outer_radius;
   const std::string former = fmt::format("<path class=\"former\" d=\"{}\"/>\n",
                                          outline_path(thinned(comparison.before.boundary, scale)));
-  return with_numbers(comparison, wheel_panel(grid, comparison.before, first_middle, comparison.layers, ""),
+  return with_numbers(comparison,
+                      wheel_panel(grid, comparison.before, first_middle, layers_before(comparison), ""),
                       wheel_panel(grid, comparison.after, second_middle, comparison.layers, former));
 }
 
 std::string comparison_svg(const PolarGrid<3>& grid, const Comparison<3>& comparison) {
-  return with_numbers(comparison, wheel_panel(grid, comparison.before, first_middle, comparison.layers),
+  return with_numbers(comparison,
+                      wheel_panel(grid, comparison.before, first_middle, layers_before(comparison)),
                       wheel_panel(grid, comparison.after, second_middle, comparison.layers));
 }
 

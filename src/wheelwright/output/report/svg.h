@@ -53,7 +53,8 @@ struct Comparison {
   std::string objective_name;  ///< e.g. "strain energy"
   std::string objective_unit;  ///< e.g. "J/m"
   WheelState<dim> before, after;
-  LayerCircles layers = {};
+  LayerCircles layers = {};         ///< of the second wheel
+  LayerCircles layers_before = {};  ///< of the first; empty: the same
 };
 
 /// The comparison as an SVG document for pages and README files. In 2D the holes of the first wheel are

@@ -17,6 +17,7 @@ int more_cells(int cells) {
 
 template <int dim>
 RollingModel<dim> on_finer_grid(RollingModel<dim> model) {
+  model.design_lines.clear();
   const std::array<int, dim> before = model.grid.cells;
   const auto equal_rows = model.grid.all_equal_rows();
   auto& cells = model.grid.cells;

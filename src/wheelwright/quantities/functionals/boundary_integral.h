@@ -26,6 +26,8 @@ class BoundaryIntegral : public Functional<dim> {
   };
 
  private:
+  double integral(const CutDomain<dim>& domain, int map_degree) const;
+
   /// N at a point, Cartesian, in the body frame [m].
   virtual Density density(const Vec<dim>& x) const = 0;
 };

@@ -15,6 +15,9 @@ struct FunctionalValue {
   /// empty: zero.
   double of_shape = 0;
   std::vector<double> gradient_of_shape = {};
+  /// Its derivatives with respect to the radii of the model's design lines, as ShapeGradients::by_radius;
+  /// empty: zero.
+  std::vector<double> by_radius_of_shape = {};
 
   /// The part that depends on the states: J_i of every position that was solved for, which is also that of
   /// the position's mirror image. Empty: zero.

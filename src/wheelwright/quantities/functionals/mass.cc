@@ -1,5 +1,6 @@
 #include "wheelwright/quantities/functionals/mass.h"
 
+#include "wheelwright/mechanics/state/by_radii.h"
 #include "wheelwright/mechanics/state/layer_measures.h"
 
 namespace wheelwright {
@@ -11,12 +12,16 @@ FunctionalValue<dim> Mass<dim>::evaluate(const StateSolver<dim>& solver, const L
   const auto of_sectors = [&](const MaterialLaw<dim>& law) {
     return law.density().value_or(0) * grid.n_sectors;
   };
-  FunctionalValue<dim> value;
   const auto counts = [&](int row) { return !part_ || part_->has_row(grid, row); };
-  const std::vector<double> parts =
-      layer_measures<dim>(materials_, solver.model().degree, state.domain(), counts);
-  for (std::size_t layer = 0; layer < parts.size(); ++layer)
-    value.of_shape += parts[layer] * of_sectors(*materials_.layers()[layer].law);
+  const auto mass = [&](const CutDomain<dim>& domain) {
+    const std::vector<double> parts = layer_measures<dim>(materials_, solver.model().degree, domain, counts);
+    double sum = 0;
+    for (std::size_t layer = 0; layer < parts.size(); ++layer)
+      sum += parts[layer] * of_sectors(*materials_.layers()[layer].law);
+    return sum;
+  };
+  FunctionalValue<dim> value{.of_shape = mass(state.domain()),
+                             .by_radius_of_shape = by_radii<dim>(solver.model(), state.domain(), mass)};
   for (const SurfacePoint<dim>& point : state.boundary()) {
     const int row = grid.cell_position(point.cell)[0];
     value.gradient_of_shape.push_back(counts(row) ? of_sectors(materials_.in_row(grid, row)) : 0);

@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t format_version = 9;
+constexpr std::uint32_t format_version = 10;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -93,7 +93,7 @@ std::vector<SurfacePoint<dim>> read_points(ByteReader& reader) {
 
 void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
   append_all(functions, writer, [&](const FunctionValue& one) {
-    const auto& [name, value, by_position, gradient, bounds, edge_gradient, unit] = one;
+    const auto& [name, value, by_position, gradient, bounds, edge_gradient, unit, by_radius] = one;
     writer.text(name);
     writer.number(value);
     writer.numbers(by_position);
@@ -102,12 +102,13 @@ void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
     writer.number(bounds.upper);
     writer.numbers(edge_gradient);
     writer.integer(static_cast<int>(unit));
+    writer.numbers(by_radius);
   });
 }
 
 std::vector<FunctionValue> read_functions(ByteReader& reader) {
-  return read_all<FunctionValue>(reader, 4 * count_size + 3 * number_size, [&](FunctionValue& one) {
-    auto& [name, value, by_position, gradient, bounds, edge_gradient, unit] = one;
+  return read_all<FunctionValue>(reader, 5 * count_size + 3 * number_size, [&](FunctionValue& one) {
+    auto& [name, value, by_position, gradient, bounds, edge_gradient, unit, by_radius] = one;
     name = reader.text();
     value = reader.finite_number("the value of a function");
     by_position = reader.finite_numbers("the values of a function by position");
@@ -117,6 +118,7 @@ std::vector<FunctionValue> read_functions(ByteReader& reader) {
     edge_gradient = reader.finite_numbers("the gradient of a function at the edges");
     unit = static_cast<UnitKind>(
         reader.integer(0, static_cast<int>(UnitKind::distance), "the unit of a function"));
+    by_radius = reader.finite_numbers("the derivatives of a function with respect to radii");
   });
 }
 
@@ -244,15 +246,21 @@ std::string_view misfit(const OptimizationState<dim>& state) {
   for (const auto* points : {&state.evaluation.boundary, &state.evaluation.edges})
     for (const auto& point : *points)
       if (point.cell >= n_cells) return "a point of the boundary lies outside the grid";
-  for (const FunctionValue& function : state.evaluation.functions)
+  const size_t n_radii =
+      state.evaluation.functions.empty() ? 0 : state.evaluation.functions.front().by_radius.size();
+  for (const FunctionValue& function : state.evaluation.functions) {
+    if (function.by_radius.size() != n_radii)
+      return "there is not one derivative of every function with respect to every radius";
     if (function.gradient.size() != state.evaluation.boundary.size() ||
         function.edge_gradient.size() != state.evaluation.edges.size())
       return "there is not one value of a gradient for every point of the boundary";
+  }
   const size_t n_nodes = state.shape.values.size();
   for (const CurvaturePair& pair : state.memory.pairs)
-    if ((pair.move.size() != n_nodes && pair.move.size() != dim * n_nodes) ||
+    if ((pair.move.size() != n_nodes + n_radii && pair.move.size() != dim * n_nodes + n_radii) ||
         pair.change.size() != pair.move.size())
-      return "a move of the boundary does not have one number, or one vector, for every node";
+      return "a move of the boundary does not have one number, or one vector, for every node, and for every "
+             "radius";
   if (state.history_begin > state.iteration ||
       state.history.size() != std::size_t(state.iteration) - std::size_t(state.history_begin) + 1)
     return "there is not one objective for every shape";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/version.h"
 #include "wheelwright/case/write.h"
 
@@ -13,7 +14,7 @@ std::string program_text() {
 }
 
 Provenance provenance(const Case& c) {
-  Case computed = c;
+  Case computed = at_middle_radii(c);  // a run chooses radii itself
   computed.title = {};
   computed.output = {};
   computed.expectations = {};

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/run/checkpoints/provenance.h"
 
 namespace wheelwright {
@@ -40,12 +41,13 @@ std::string first_difference(const std::string& then, const std::string& now) {
   return "it has other keys";
 }
 
-/// Whether the remembered moves are vectors or speeds, as required by this velocity.
+/// Whether the remembered moves are vectors or speeds, and of radii, as the case requires.
 template <int dim>
-bool has_moves_of(VelocityKind velocity, const OptimizationState<dim>& state) {
-  const size_t per_node = velocity == VelocityKind::vector ? dim : 1;
+bool has_moves_of(const Case& c, const OptimizationState<dim>& state) {
+  const size_t per_node = velocity_kind(c) == VelocityKind::vector ? dim : 1,
+               n_radii = design_radii(c).size();
   return std::ranges::all_of(state.memory.pairs, [&](const CurvaturePair& pair) {
-    return pair.move.size() == per_node * state.shape.values.size();
+    return pair.move.size() == per_node * state.shape.values.size() + n_radii;
   });
 }
 
@@ -62,7 +64,7 @@ Expected<Checkpoint<dim>, Unusable> read_checkpoint(const fs::path& file, const 
   if (then != now) return Unusable{fmt::format("written for another case: {}", first_difference(then, now))};
   if (!level_of(c, checkpoint->state.shape) || level_of(c, checkpoint->initial.shape) != 0)
     return Unusable{"its shape is on another grid than the case's"};
-  if (!has_moves_of(velocity_kind(c), checkpoint->state))
+  if (!has_moves_of(c, checkpoint->state))
     return Unusable{"its moves of the boundary are not of the case's kind"};
   if (!History::holds(history, checkpoint->history))
     return Unusable{

@@ -6,9 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/quantities/analysis/rolling_measures.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/study/bounded_functions.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 namespace {
@@ -45,6 +47,9 @@ std::vector<HistoryColumns::Quantity> bound_columns(const std::vector<ShapeFunct
   return columns;
 }
 
+/// Of the derivative of the objective with respect to a radius.
+std::string slope_name(const DesignRadius& one) { return "objective by " + one.name; }
+
 template <int dim>
 HistoryColumns history_columns(const Study<dim>& study) {
   HistoryColumns columns{.objective_unit = unit<dim>(kind(study.source.objective.minimize)),
@@ -60,6 +65,10 @@ HistoryColumns history_columns(const Study<dim>& study) {
                                         unit<dim>(kind(built_in(quantity)))));
   for (const auto& [measure, measure_unit] : peak_columns)
     columns.measures.push_back(column(measure, measure_unit));
+  for (const DesignRadius& one : design_radii(study.source)) {
+    columns.measures.push_back(column(one.name, "m"));
+    columns.measures.push_back({slope_name(one), columns.objective_unit + "/m"});
+  }
   return columns;
 }
 
@@ -73,6 +82,19 @@ std::vector<MeasureValue> peaks(const StateSolver<dim>& solver, const State<dim>
       std::ranges::max(state.strain_peaks().principal)};
   std::vector<MeasureValue> result;
   for (size_t k = 0; k < values.size(); ++k) result.push_back({peak_columns[k].first, values[k]});
+  return result;
+}
+
+/// The radii of a trial's grid, each followed by the derivative of the objective.
+template <int dim>
+std::vector<MeasureValue> radii_of(const Trial<dim>& trial, const Study<dim>& study) {
+  const auto radii = design_radii(study.source);
+  const auto& lines = study.model().design_lines;
+  std::vector<MeasureValue> result;
+  for (std::size_t k = 0; k < radii.size(); ++k) {
+    result.push_back({radii[k].name, radius_of_fixed_line(trial.shape.lattice.grid(), lines[k])});
+    result.push_back({slope_name(radii[k]), trial.evaluation->function("objective").by_radius[k]});
+  }
   return result;
 }
 
@@ -159,6 +181,8 @@ void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& 
     row.max_newton_iterations = newton.empty() ? 0 : *std::max_element(newton.begin(), newton.end());
     row.phases = trial.evaluation->phases;
   }
+  if (trial.evaluation)
+    for (const MeasureValue& measure : radii_of(trial, run.study)) row.measures.push_back(measure);
   if (row.accepted && trial.solution) {
     const auto found = peaks(*run.study.solver, *trial.solution);
     row.measures.insert(row.measures.end(), found.begin(), found.end());

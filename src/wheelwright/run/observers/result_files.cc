@@ -15,6 +15,7 @@
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
+#include "wheelwright/run/results/given_wheel.h"
 #include "wheelwright/run/results/run_title.h"
 #include "wheelwright/shape/cut/measure.h"
 
@@ -46,7 +47,8 @@ template <int dim>
 void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                   const KnownNumber& before_objective) {
   constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
-  const LevelSet<dim>& given = run.study.initial;
+  const Study<dim> given_by_case = given_study(run.study, *run.initial);
+  const LevelSet<dim>& given = given_by_case.initial;
   const auto before = wheel_state(run, "initial", given, before_objective ? *before_objective : not_computed,
                                   material_measure(given));
   const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
@@ -66,7 +68,8 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                      .objective_unit = shown_unit(minimized, run.study.source.wheel).name,
                                      .before = before,
                                      .after = after,
-                                     .layers = layer_circles(run.study.model().materials)}));
+                                     .layers = layer_circles(run.study.model().materials),
+                                     .layers_before = layer_circles(given_by_case.model().materials)}));
 }
 
 /// The wheel under every load case except the first: its pictures, in the folder load_cases.

@@ -97,16 +97,21 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
       solver = finer;
     }
   const auto after = described(study.source, *solver, study.load_cases, state.shape, state.measure, shown);
+  const Study<dim> given = given_study(study, initial);
   const auto before = [&] {
-    if (study.initial.values == state.shape.values) return after;
-    if (solved.initial && solver == study.solver && begins_as_given(study, initial)) return *solved.initial;
+    if (given.grid() == study.grid() && study.initial.values == state.shape.values) return after;
+    if (solved.initial && solver == study.solver && begins_as_given(given, initial)) return *solved.initial;
     const double measure =
-        begins_as_given(study, initial) ? initial.measure : material_measure(study.initial);
-    return described(study.source, *solver, study.load_cases, study.initial, measure,
-                     solutions.of(*solver, study.initial));
+        begins_as_given(given, initial) ? initial.measure : material_measure(given.initial);
+    auto of_given = given.grid() == study.grid() ? solver
+                    : solver == study.solver     ? given.solver
+                                                 : solver_of_results(given);
+    if (!of_given) of_given = given.solver;
+    return described(given.source, *of_given, given.load_cases, given.initial, measure,
+                     solutions.of(*of_given, given.initial));
   }();
-  const auto objective = objective_as_given(study, initial, interrupt);
-  auto summary = summarized_run(study, initial, objective, before, state, after);
+  const auto objective = objective_as_given(given, initial, interrupt);
+  auto summary = summarized_run(study, given, initial, objective, before, state, after);
   if (shown && study.source.output.errors == ErrorEstimates::estimated)
     add_errors(study, *solver, state.shape, shown, solutions, summary);
   return {.own = own,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
@@ -23,6 +24,15 @@ std::string change(const char* label, const std::optional<cad::Clearance>& from,
 }
 
 }  // namespace
+
+template <int dim>
+Study<dim> given_study(const Study<dim>& study, const InitialShape<dim>& start) {
+  if (study.level > 0 || study.optimizer.design_lines.empty() || start.shape.lattice.grid() == study.grid())
+    return study;
+  const auto c = with_radii_of(study.source, start.shape.lattice.grid());
+  auto given = c ? make_study<dim>(*c) : Expected<Study<dim>>(study);
+  return given ? *std::move(given) : study;
+}
 
 template <int dim>
 bool begins_as_given(const Study<dim>& study, const InitialShape<dim>& start) {
@@ -54,9 +64,11 @@ std::string changed_start(const Study<dim>& study, const InitialShape<dim>& star
          changes + ".";
 }
 
+template decltype(given_study<2>) given_study<2>;
 template decltype(begins_as_given<2>) begins_as_given<2>;
 template decltype(objective_as_given<2>) objective_as_given<2>;
 template decltype(changed_start<2>) changed_start<2>;
+template decltype(given_study<3>) given_study<3>;
 template decltype(begins_as_given<3>) begins_as_given<3>;
 template decltype(objective_as_given<3>) objective_as_given<3>;
 template decltype(changed_start<3>) changed_start<3>;

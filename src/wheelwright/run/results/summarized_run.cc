@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/optimization/optimizer/constraints.h"
@@ -35,6 +36,15 @@ std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& sta
   return result;
 }
 
+template <int dim>
+std::vector<ChosenRadius> chosen_radii(const Study<dim>& study, const Study<dim>& given) {
+  std::vector<ChosenRadius> result;
+  const std::vector<DesignRadius> before = design_radii(given.source), after = design_radii(study.source);
+  for (std::size_t k = 0; k < after.size(); ++k)
+    result.push_back({after[k].name, before[k].radius, after[k].radius, after[k].least, after[k].most});
+  return result;
+}
+
 KnownNumber known(const Expected<double>& value) {
   if (value) return *value;
   return to_string(value.failure());
@@ -43,9 +53,10 @@ KnownNumber known(const Expected<double>& value) {
 }  // namespace
 
 template <int dim>
-RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>& start,
-                               const Expected<double>& objective, DescribedWheel<dim> before,
-                               const OptimizationState<dim>& last, DescribedWheel<dim> after) {
+RunSummary<dim> summarized_run(const Study<dim>& study, const Study<dim>& given,
+                               const InitialShape<dim>& start, const Expected<double>& objective,
+                               DescribedWheel<dim> before, const OptimizationState<dim>& last,
+                               DescribedWheel<dim> after) {
   auto worse = remarks(study.source, before, after);
   return {.title = run_title(study.source),
           .before = {0, known(objective), std::move(before)},
@@ -55,7 +66,8 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>&
           .objective = shown_unit(study.source.objective.minimize, study.source.wheel),
           .remarks = std::move(worse),
           .bounded_peaks = bounded_peaks(study.source),
-          .changed_start = changed_start(study, start)};
+          .radii = chosen_radii(study, given),
+          .changed_start = changed_start(given, start)};
 }
 
 template decltype(summarized_run<2>) summarized_run<2>;

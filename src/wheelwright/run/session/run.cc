@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/checkpoints/own_drawings.h"
@@ -41,7 +42,7 @@ bool is_finished(const Checkpoint<dim>& checkpoint, const Case& c) {
 template <int dim>
 Expected<std::vector<Finding>> findings_at(const Case& c, const Checkpoint<dim>& end) {
   if (c.expectations.empty()) return std::vector<Finding>{};
-  const auto study = make_study<dim>(c);
+  const auto study = make_study<dim>(*with_radii_of(c, end.state.shape.lattice.grid()));
   if (!study) return study.failure();
   SolvedStates<dim> states = Failure{FailureReason::interrupted, "no expectation needs a solution"};
   const std::vector<Expectation> expectations = placed_expectations(c);
@@ -119,7 +120,9 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path
   if (checkpoint && is_finished(*checkpoint, c))
     return already_finished(c, *std::move(checkpoint), std::move(unusable));
 
-  auto study = make_study<dim>(c, checkpoint ? *level_of(c, checkpoint->state.shape) : 0);
+  const int level = checkpoint ? *level_of(c, checkpoint->state.shape) : 0;
+  auto study = make_study<dim>(
+      checkpoint ? *with_radii_of(c, checkpoint->state.shape.lattice.grid(), level) : c, level);
   if (!study) return NotBegun<dim>(study.failure());
   Resumption resumption{.unusable = std::move(unusable), .shape = {}, .other_program = {}};
   if (checkpoint) {

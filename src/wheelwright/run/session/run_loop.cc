@@ -85,12 +85,19 @@ template <int dim>
 std::optional<StopReason> RunLoop<dim>::advance() {
   const auto bench = session_.bench();  // a command may replace it while it is in use
   const auto reason = bench->optimizer.advance(
-      session_.state(),
-      [this](const Trial<dim>& trial, const OptimizationState<dim>&) { journal_.record(trial); },
+      session_.state(), [this](const Trial<dim>& trial, const OptimizationState<dim>&) { record(trial); },
       [this] { return control_.obey(); });
   if (reason != StopReason::stop_requested) return reason;
   control_.obey();  // a command to stop may have ended an evaluation
   return {};
+}
+
+/// The case has the radii of the newest shape, also in its file.
+template <int dim>
+void RunLoop<dim>::record(const Trial<dim>& trial) {
+  const bool has_moved = session_.follow_radii();
+  journal_.record(trial);
+  if (has_moved) write_case_file(folder_, session_.study().source);
 }
 
 /// The shape cannot be computed on the next grid: the run ends with the current one.

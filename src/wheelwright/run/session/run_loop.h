@@ -28,6 +28,7 @@ class RunLoop {
   void show_resumed_shape();
   RunResult<dim> run();
   std::optional<StopReason> advance();
+  void record(const Trial<dim>& trial);
   RunResult<dim> give_up(const Failure& failure);
   RunResult<dim> end(StopReason reason);
 

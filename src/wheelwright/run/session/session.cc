@@ -1,5 +1,6 @@
 #include "wheelwright/run/session/session.h"
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/run/session/replacements.h"
 #include "wheelwright/run/study/on_other_grid.h"
 #include "wheelwright/shape/evolution/regrid.h"
@@ -38,11 +39,30 @@ Session<dim>::Session(Study<dim> study, Interrupt on_stop, Interrupt completed)
 
 template <int dim>
 std::shared_ptr<const Workbench<dim>> Session<dim>::make_bench(Study<dim> study) const {
+  auto moved = moved_studies(study);
+  return make_bench(std::move(study), std::move(moved));
+}
+
+template <int dim>
+std::shared_ptr<const Workbench<dim>> Session<dim>::make_bench(
+    Study<dim> study, std::shared_ptr<MovedStudies<dim>> moved) const {
   auto evaluate = evaluate_of(study, on_stop_);
-  ShapeOptimizer<dim> optimizer(study.initial.lattice, study.evolution, study.optimizer, evaluate);
-  ShapeOptimizer<dim> uninterrupted = optimizer.with(evaluate_of(study, completed_));
-  return std::make_shared<const Workbench<dim>>(
-      Workbench<dim>{std::move(study), std::move(evaluate), std::move(optimizer), std::move(uninterrupted)});
+  ShapeOptimizer<dim> optimizer = optimizer_of(study, moved, on_stop_);
+  ShapeOptimizer<dim> uninterrupted =
+      moved ? optimizer_of(study, moved, completed_) : optimizer.with(evaluate_of(study, completed_));
+  return std::make_shared<const Workbench<dim>>(Workbench<dim>{std::move(study), std::move(evaluate),
+                                                               std::move(optimizer), std::move(uninterrupted),
+                                                               std::move(moved)});
+}
+
+template <int dim>
+bool Session<dim>::follow_radii() {
+  const PolarGrid<dim>& grid = state_->shape.lattice.grid();
+  if (!bench_->moved || grid == bench_->study.grid()) return false;
+  const auto there = bench_->moved->on(grid);
+  if (!there) return false;
+  bench_ = make_bench((*there)->study, bench_->moved);
+  return true;
 }
 
 template <int dim>
@@ -79,9 +99,10 @@ Expected<Stage<dim>, Refusal> Session<dim>::under(const Case& c, const LevelSet<
   const int level = study().level;
   if (level_of(c, initial_->shape) != 0 || level_of(c, state_->shape) != level)
     return Refusal{"the shape is on another grid than the case's"};
-  auto study = make_study<dim>(c, level);
+  auto study = make_study<dim>(*with_radii_of(c, state_->shape.lattice.grid(), level), level);
   if (!study) return refusal(study.failure());
-  const auto of_initial = level == 0 ? study : make_study<dim>(c);
+  const Case at_first = *with_radii_of(c, initial_->shape.lattice.grid());
+  const auto of_initial = level == 0 && at_first == study->source ? study : make_study<dim>(at_first);
   if (!of_initial) return refusal(of_initial.failure());
   const auto first = evaluate_of(*of_initial)(initial_->shape, nullptr);
   if (!first) return refusal(first.failure());

@@ -8,7 +8,7 @@
 #include "wheelwright/optimization/nucleation/nucleation.h"
 #include "wheelwright/run/checkpoints/checkpoint.h"
 #include "wheelwright/run/commands/run_control.h"
-#include "wheelwright/run/study/study.h"
+#include "wheelwright/run/study/moved_studies.h"
 
 namespace wheelwright {
 
@@ -19,6 +19,7 @@ struct Workbench {
   typename ShapeOptimizer<dim>::Evaluate evaluate;  ///< ended early by a command to stop
   ShapeOptimizer<dim> optimizer;                    ///< with that evaluation
   ShapeOptimizer<dim> uninterrupted;                ///< the same; its evaluations are always completed
+  std::shared_ptr<MovedStudies<dim>> moved;         ///< of a case with design radii; otherwise null
 };
 
 /// A state of a session from which the search can continue: another shape, grid or case.
@@ -56,6 +57,8 @@ class Session {
   /// As a checkpoint left it.
   void resume(const Checkpoint<dim>& checkpoint);
   void enter(Stage<dim> stage);
+  /// Gives the case the radii of the state's design lines, if they moved. Returns whether they did.
+  bool follow_radii();
 
   bool has_shape() const { return state_.has_value(); }
   const Study<dim>& study() const { return bench_->study; }
@@ -89,6 +92,8 @@ class Session {
 
  private:
   std::shared_ptr<const Workbench<dim>> make_bench(Study<dim> study) const;
+  std::shared_ptr<const Workbench<dim>> make_bench(Study<dim> study,
+                                                   std::shared_ptr<MovedStudies<dim>> moved) const;
 
   Interrupt on_stop_, completed_;
   std::shared_ptr<const Workbench<dim>> bench_;

@@ -10,6 +10,7 @@
 
 #include "wheelwright/case/case_key.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/ground_of.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/number_text.h"
@@ -64,6 +65,9 @@ std::string layers_report(const Case& c) {
                                                 : "no density, so no mass is shown",
                                layer && c.layers[*layer].holes == LayerHoles::none ? ", no holes" : ""));
   }
+  for (const DesignRadius& one : design_radii(c))
+    report += line("chosen", fmt::format("{} from {:.6g} to {:.6g} mm, now {:.6g} mm", one.name,
+                                         one.least * 1e3, one.most * 1e3, one.radius * 1e3));
   return report;
 }
 
@@ -313,7 +317,7 @@ std::vector<std::string> warnings(const Case& c) {
         "load positions between columns of cells use different points of the tread, which affects the "
         "uniformity functionals; with grid.angular_cells a multiple of sectors * positions = {} they do not",
         total_load_positions(c)));
-  if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never)
+  if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never && design_radii(c).empty())
     result.push_back("there are no holes, so no boundary can move");
   std::ranges::copy(holes_in_solid_layers(c), std::back_inserter(result));
   std::ranges::copy(unequal_rows(c), std::back_inserter(result));

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "wheelwright/cad/drawing/composed_level_set.h"
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/ground_of.h"
 #include "wheelwright/case/layers.h"
@@ -15,6 +16,7 @@
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/functionals/mean_contact_stress.h"
 #include "wheelwright/run/study/bounded_functions.h"
+#include "wheelwright/run/study/moved_studies.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/evolution/regrid.h"
 #include "wheelwright/shape/evolution/volume.h"
@@ -79,6 +81,7 @@ RollingModel<dim> rolling_model(const Case& c) {
   model.tread.observes_spin =
       std::ranges::any_of(single, [](const Case& each) { return each.load.speed != 0; });
   model.n_positions = c.load.positions;
+  model.design_lines = design_lines(c);
   return model;
 }
 
@@ -311,6 +314,10 @@ OptimizerOptions optimizer_options(const Case& c) {
                                                                      : MeasureControl::free;
   options.measure_rate = c.volume.rate;
   if (!descends) options.final_widths = final_widths<dim>(c);
+  const std::vector<int> lines = design_lines(c);
+  const std::vector<DesignRadius> radii = design_radii(c);
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    options.design_lines.push_back({lines[k], radii[k].least, radii[k].most});
   if (c.volume.target) options.target_measure = *c.volume.target * sector_measure<dim>(polar_grid<dim>(c));
   return options;
 }
@@ -330,7 +337,8 @@ template <int dim>
 std::optional<int> level_of(const Case& c, const LevelSet<dim>& shape) {
   for (int level = 0; level <= c.optimizer.coarse_levels; ++level) {
     const Case computed = on_coarser_grid(c, level);
-    if (shape.lattice.grid() == polar_grid<dim>(computed) &&
+    const auto moved = with_radii_of(c, shape.lattice.grid(), level);
+    if (moved && shape.lattice.grid() == polar_grid<dim>(on_coarser_grid(*moved, level)) &&
         shape.lattice.degree() == level_set_degree(computed))
       return level;
   }
@@ -377,7 +385,7 @@ typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Inte
 
 template <int dim>
 ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
-  return {study.initial.lattice, study.evolution, study.optimizer, evaluate_of(study, std::move(interrupt))};
+  return optimizer_of(study, moved_studies(study), interrupt);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \

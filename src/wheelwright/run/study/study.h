@@ -96,7 +96,8 @@ struct Study {
 template <int dim>
 Expected<Study<dim>> make_study(const Case& c, int level = 0);
 
-/// The level at which a case's grid has the nodes of this shape, if there is one up to coarse_levels.
+/// The level at which a case's grid has the nodes of this shape, if there is one up to coarse_levels. The
+/// shape's grid may have other design radii (case/design_radii.h).
 template <int dim>
 std::optional<int> level_of(const Case& c, const LevelSet<dim>& shape);
 

@@ -26,9 +26,15 @@ ShapeResult<dim> next_shape(const Evolver<dim>& evolver, const LevelSet<dim>& ps
                             const ShapeRequirements& required) {
   const auto moved = evolver.move(psi, motion.velocity, motion.distance);
   if (!moved) return UnfinishedShape<dim>{psi, unknown, {}, moved.failure()};
-  const auto even = motion.redistances ? evolver.redistance(*moved) : moved;
-  if (!even) return UnfinishedShape<dim>{*moved, unknown, {}, even.failure()};
-  const auto smooth = motion.smooths ? evolver.smooth(*even) : even;
+  return reshaped(evolver, *moved, motion.redistances, motion.smooths, required);
+}
+
+template <int dim>
+ShapeResult<dim> reshaped(const Evolver<dim>& evolver, const LevelSet<dim>& moved, bool redistances,
+                          bool smooths, const ShapeRequirements& required) {
+  const auto even = redistances ? evolver.redistance(moved) : Expected<LevelSet<dim>>(moved);
+  if (!even) return UnfinishedShape<dim>{moved, unknown, {}, even.failure()};
+  const auto smooth = smooths ? evolver.smooth(*even) : even;
   if (!smooth) return UnfinishedShape<dim>{*even, unknown, {}, smooth.failure()};
   return finished_shape(evolver, *smooth, required);
 }
@@ -75,9 +81,11 @@ ShapeResult<dim> finished_shape(const Evolver<dim>& evolver, LevelSet<dim> psi,
 }
 
 template decltype(next_shape<2>) next_shape<2>;
+template decltype(reshaped<2>) reshaped<2>;
 template decltype(measured_shape<2>) measured_shape<2>;
 template decltype(finished_shape<2>) finished_shape<2>;
 template decltype(next_shape<3>) next_shape<3>;
+template decltype(reshaped<3>) reshaped<3>;
 template decltype(measured_shape<3>) measured_shape<3>;
 template decltype(finished_shape<3>) finished_shape<3>;
 

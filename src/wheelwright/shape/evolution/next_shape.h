@@ -51,6 +51,11 @@ template <int dim>
 ShapeResult<dim> next_shape(const Evolver<dim>& evolver, const LevelSet<dim>& psi, const ShapeMotion& motion,
                             const ShapeRequirements& required);
 
+/// The same for a shape that has moved already. Fails as these functions do.
+template <int dim>
+ShapeResult<dim> reshaped(const Evolver<dim>& evolver, const LevelSet<dim>& moved, bool redistances,
+                          bool smooths, const ShapeRequirements& required);
+
 /// The shape as it is, with these minimum widths. Fails like Evolver::measured().
 template <int dim>
 ShapeResult<dim> measured_shape(const Evolver<dim>& evolver, const LevelSet<dim>& psi,

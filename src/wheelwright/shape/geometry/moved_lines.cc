@@ -1,5 +1,6 @@
 #include "wheelwright/shape/geometry/moved_lines.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace wheelwright {
@@ -63,6 +64,35 @@ PolarGrid<dim> divided(PolarGrid<dim> grid, int parts) {
 }
 
 template <int dim>
+RowsAtLine rows_at_fixed_line(const PolarGrid<dim>& grid, int line) {
+  return {grid.equal_rows(line - 1), grid.equal_rows(line)};
+}
+
+template <int dim>
+double radius_of_fixed_line(const PolarGrid<dim>& grid, int line) {
+  return std::ranges::find(grid.fixed_lines, line, &FixedLine::line)->radius;
+}
+
+template <int dim>
+PolarGrid<dim> with_fixed_line_at(PolarGrid<dim> grid, int line, double radius) {
+  std::ranges::find(grid.fixed_lines, line, &FixedLine::line)->radius = radius;
+  return grid;
+}
+
+template <int dim>
+std::array<DifferencePoint<dim>, 4> differences_by_radius(const PolarGrid<dim>& grid, int line) {
+  constexpr double relative_step = 1e-3;
+  const auto [below, above] = rows_at_fixed_line(grid, line);
+  const double radius = below.outer_radius,
+               step = relative_step *
+                      std::min(radius - below.inner_radius, above.outer_radius - above.inner_radius);
+  const auto point = [&](int steps, double factor) {
+    return DifferencePoint<dim>{with_fixed_line_at(grid, line, radius + steps * step), factor / (12 * step)};
+  };
+  return {point(-2, 1), point(-1, -8), point(1, 8), point(2, -1)};
+}
+
+template <int dim>
 RowRatio largest_row_ratio(const PolarGrid<dim>& grid) {
   RowRatio largest{1, grid.inner_radius};
   const auto all = grid.all_equal_rows();
@@ -81,10 +111,14 @@ double largest_row_height(const PolarGrid<dim>& grid) {
   return height;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                \
-  template decltype(with_lines_at<dim>) with_lines_at<dim>;         \
-  template decltype(divided<dim>) divided<dim>;                     \
-  template decltype(largest_row_ratio<dim>) largest_row_ratio<dim>; \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                        \
+  template decltype(with_lines_at<dim>) with_lines_at<dim>;                 \
+  template decltype(divided<dim>) divided<dim>;                             \
+  template decltype(rows_at_fixed_line<dim>) rows_at_fixed_line<dim>;       \
+  template decltype(radius_of_fixed_line<dim>) radius_of_fixed_line<dim>;   \
+  template decltype(with_fixed_line_at<dim>) with_fixed_line_at<dim>;       \
+  template decltype(differences_by_radius<dim>) differences_by_radius<dim>; \
+  template decltype(largest_row_ratio<dim>) largest_row_ratio<dim>;         \
   template decltype(largest_row_height<dim>) largest_row_height<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -43,7 +43,7 @@ void BoardObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>&
 
 template <int dim>
 void BoardObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
-  if (!source_) {
+  if (!source_ || source_->layers != run.study.source.layers) {  // the run chooses radii of layers
     source_ = std::make_shared<const Case>(run.study.source);
     load_cases_ = std::make_shared<const LoadCases<dim>>(run.study.load_cases);
   }
