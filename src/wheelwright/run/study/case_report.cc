@@ -250,6 +250,21 @@ std::vector<std::string> warnings_of_losses(const Case& c) {
   return result;
 }
 
+/// Where load positions would miss the largest stress of a turn.
+std::vector<std::string> warnings_of_fatigue(const Case& c) {
+  if (!has_fatigue_limit(c)) return {};
+  const Case narrowest = std::ranges::min(single_load_cases(c), {}, likely_half_width);
+  const double half_width = likely_half_width(narrowest),
+               step = 2 * std::numbers::pi * c.wheel.outer_radius / total_load_positions(c);
+  if (step <= half_width) return {};
+  return {fmt::format(
+      "fatigue near the contact: {} = {} are {:.3g} mm apart at the tread and pass over the largest stress "
+      "of "
+      "a turn, in a contact about {:.3g} mm long; {} see it (wheelwright analyze has the option --positions)",
+      key_of(&Load::positions).path(), c.load.positions, step * 1e3, 2e3 * half_width,
+      std::ceil(c.load.positions * step / half_width))};
+}
+
 std::string bounds_report(const Case& c) {
   std::string report;
   for (const Constraint& bound : c.constraints) {
@@ -322,6 +337,7 @@ std::vector<std::string> warnings(const Case& c) {
   std::ranges::copy(holes_in_solid_layers(c), std::back_inserter(result));
   std::ranges::copy(unequal_rows(c), std::back_inserter(result));
   std::ranges::copy(warnings_of_losses(c), std::back_inserter(result));
+  std::ranges::copy(warnings_of_fatigue(c), std::back_inserter(result));
   if (const double cells = smallest_hole_in_cells(c);
       cells < least_cells_per_hole && c.optimizer.smoothing == 0)
     result.push_back(
