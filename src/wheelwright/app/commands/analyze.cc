@@ -47,7 +47,6 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   const std::string title = c.title.empty() ? wheel.name : c.title;
   RollingReport report{.title = fmt::format("{}, {}", title, wheel.which),
                        .width = c.wheel.width,
-                       .outer_radius = c.wheel.outer_radius,
                        .n_sectors = c.wheel.sectors,
                        .analysis = rolling_analysis(solver, solution),
                        .loads = {},
@@ -55,6 +54,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
                        .dimension = dim,
                        .finer = {}};
   report.losses = rolling_losses(solver, wheel.shape, solution);
+  report.outer_radius = c.wheel.outer_radius;
   report.fatigue = fatigue_results(solver, wheel.shape, solution);
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
   report.under_loads = under_loads<dim>(solution, report.loads);

@@ -24,8 +24,7 @@ struct FinerReport {
 /// The analysis of one shape. Forces are shown on the whole width.
 struct RollingReport {
   std::string title;
-  double width;         ///< w_r [m]
-  double outer_radius;  ///< R_e [m]
+  double width;  ///< w_r [m]
   int n_sectors;
   RollingAnalysis analysis;
   std::vector<double> loads;  ///< as in the analysis, ascending; empty: none were requested
@@ -36,6 +35,7 @@ struct RollingReport {
   std::optional<AccurateNumbers> accurate = {};          ///< if an accuracy was wanted
   std::optional<Expected<RollingLosses>> losses = {};    ///< if the loss factors are known
   std::optional<Expected<FatigueResults>> fatigue = {};  ///< if the fatigue strengths are known
+  double outer_radius = 0;                               ///< R_e, for lives as distances [m]
 };
 
 /// For display: one line per load position, another one if there is friction or torque, variations in
