@@ -24,8 +24,11 @@ void check_band(const Case& c, const Band& band, double least, std::string_view 
                      fmt::format("use at least {:.6g} m, or more grid.radial_cells", advised)});
   } else {
     const double finer = std::ceil(c.grid.radial_cells * least / band.thickness - 1e-9);
+    CaseKeys keys{key_of(&Grid::radial_cells), key, key_of(&Objective::annulus)};
+    if (!c.layers.empty()) keys.push_back(table_of<MaterialLayer>(0));  // which move rows
+    if (!c.cords.empty()) keys.push_back(table_of<MaterialCord>(0));
     found.push_back(
-        {{key_of(&Grid::radial_cells), key, key_of(&Objective::annulus)},
+        {std::move(keys),
          fmt::format("{} {} thicker than the band at the {} that remains material, by default {:.6g} m", rows,
                      band.full_rows == 1 ? "is" : "are", place, band.thickness),
          fmt::format("use at least {:.0f}, or set {} = {:.6g} or more", finer, key.path(), advised)});
