@@ -47,18 +47,22 @@ void check_contact_points(const SingleLoad& single, Conflicts& found) {
   };
   const Case shown = with_levels_of_results(c);
   const double n = unknowns(shown);
-  if (n <= most) return;
+  if (!(n > most)) return;  // or not known, with other problems
   const int fewer = static_cast<int>(std::ceil(std::log2(n / most)));
   const std::string remedy =
       *shown.grid.tread_levels >= fewer
           ? fmt::format("use grid.tread_levels = {}", *shown.grid.tread_levels - fewer)
           : fmt::format("use contact.quadrature_points = {}",
                         std::max(1, static_cast<int>(c.contact.quadrature_points * most / n)));
+  CaseKeys keys{key_of(&Grid::tread_levels),       key_of(&Contact::quadrature_points),
+                key_of(&Grid::angular_cells),      single.key(&Load::force),
+                single.key(&Load::travel),         key_of(&Material::youngs_modulus),
+                key_of(&Contact::friction),        key_of(&Contact::with),
+                key_of(&Wheel::outer_radius),      key_of(&Wheel::width),
+                key_of(&Material::poissons_ratio), key_of(&Material::plane)};
+  std::ranges::move(keys_of_moduli(c), std::back_inserter(keys));
   found.push_back(
-      {{key_of(&Grid::tread_levels), key_of(&Contact::quadrature_points), key_of(&Grid::angular_cells),
-        single.key(&Load::force), single.key(&Load::travel), key_of(&Material::youngs_modulus),
-        key_of(&Contact::friction), key_of(&Contact::with), key_of(&Wheel::outer_radius),
-        key_of(&Wheel::width), key_of(&Material::poissons_ratio), key_of(&Material::plane)},
+      {std::move(keys),
        fmt::format("about {:.0f} unknowns in the contact of one position; at most {:.0f} are solved "
                    "in reasonable time",
                    n, most),

@@ -109,7 +109,10 @@ void check_rest(const Case& c, const DesignRadius& first, Conflicts& found) {
         {{first.key, key_of(&Optimizer::method), key_of(&Optimizer::velocity), key_of(&Volume::control)},
          "steepest descent moves holes only",
          "use method = \"sequential_quadratic\", or omit the range"});
-  if (c.objective.annulus_matches_dual || c.objective.uniformity_dual > 0)
+  const auto is_dual = [](const Quantity& quantity) { return quantity == built_in("uniformity_dual"); };
+  if (c.objective.annulus_matches_dual || c.objective.uniformity_dual > 0 || is_dual(c.objective.minimize) ||
+      std::ranges::any_of(c.constraints, is_dual, &Constraint::quantity) ||
+      std::ranges::any_of(c.objective.terms, is_dual, &ObjectiveTerm::quantity))
     found.push_back(
         {{first.key, key_of(&Objective::uniformity_dual), key_of(&Objective::annulus_matches_dual)},
          "J_p2 contains the stiffness of the ring without holes, whose derivative with respect to "

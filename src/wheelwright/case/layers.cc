@@ -110,6 +110,12 @@ CaseKey PlacedMaterial::youngs_modulus_key() const {
   return layer ? key_of(&MaterialLayer::youngs_modulus, *layer) : key_of(&Material::youngs_modulus);
 }
 
+CaseKeys keys_of_moduli(const Case& c) {
+  CaseKeys keys;
+  for (const PlacedMaterial& placed : placed_materials(c)) keys.push_back(placed.youngs_modulus_key());
+  return keys;
+}
+
 CaseKey PlacedMaterial::poissons_ratio_key() const {
   if (orthotropic()) return key_of_constant(layer, &OrthotropicConstants::poissons_ratio_radial_azimuthal);
   return layer ? key_of(&MaterialLayer::poissons_ratio, *layer) : key_of(&Material::poissons_ratio);

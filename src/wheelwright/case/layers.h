@@ -44,6 +44,9 @@ std::vector<OrthotropicConstant> needed_constants(const Case& c);
 /// Those that the case gives for a layer, or for what lies in none.
 const OrthotropicConstants& orthotropic_constants(const Case& c, const std::optional<std::size_t>& layer);
 
+/// The keys of Young's moduli of all materials of the ring.
+CaseKeys keys_of_moduli(const Case& c);
+
 /// The key of a constant of a layer, or of what lies in none.
 CaseKey key_of_constant(const std::optional<std::size_t>& layer, OrthotropicConstant constant);
 

@@ -39,9 +39,11 @@ void check_load(const SingleLoad& single, Conflicts& found) {
                      question_of_megapascals(tread.youngs_modulus())});
     return;
   }
+  CaseKeys keys{single.key(&Load::force),     key_of(&Material::youngs_modulus), key_of(&Wheel::width),
+                key_of(&Wheel::outer_radius), key_of(&Material::poissons_ratio), key_of(&Material::plane)};
+  std::ranges::move(keys_of_moduli(c), std::back_inserter(keys));
   found.push_back(
-      {{single.key(&Load::force), key_of(&Material::youngs_modulus), key_of(&Wheel::width),
-        key_of(&Wheel::outer_radius), key_of(&Material::poissons_ratio), key_of(&Material::plane)},
+      {std::move(keys),
        fmt::format("too large: a solid disc would touch the ground on {:.3g} m and be strained by "
                    "about {:.0f} %, far beyond linear elasticity",
                    2 * half_width, 100 * half_width / (2 * contact_radius(c))),
