@@ -285,11 +285,11 @@ void for_each_section(Visitor&& visit) {
 
 /// Whether the tables of what the function returns have the members of Struct.
 template <class Struct, class Function>
-constexpr bool is_section_of = false;
+inline constexpr bool is_section_of = false;
 template <class Struct, class Table>
-constexpr bool is_section_of<Struct, const Section<Table>& (*)()> = std::derived_from<Table, Struct>;
+inline constexpr bool is_section_of<Struct, const Section<Table>& (*)()> = std::derived_from<Table, Struct>;
 template <class Struct, class Table>
-constexpr bool is_section_of<Struct, const SectionArray<Table>& (*)()> = std::derived_from<Table, Struct>;
+inline constexpr bool is_section_of<Struct, const SectionArray<Table>& (*)()> = std::derived_from<Table, Struct>;
 
 /// The first Section or SectionArray, from i on, whose tables are of Struct or of a type derived from it.
 template <class Struct, std::size_t i = 0>

@@ -96,7 +96,7 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
       shown = std::move(states);
       solver = finer;
     }
-  const auto after = described(study.source, *solver, study.load_cases, state.shape, state.measure, shown);
+  auto after = described(study.source, *solver, study.load_cases, state.shape, state.measure, shown);
   const Study<dim> given = given_study(study, initial);
   const auto before = [&] {
     if (given.grid() == study.grid() && study.initial.values == state.shape.values) return after;

@@ -82,7 +82,7 @@ std::string material_report(const Case& c) {
 
 /// How the tread is refined, and estimates for a given load.
 std::string contact_report(const Case& c) {
-  const std::string levels = line(
+  std::string levels = line(
       "tread levels", fmt::format("{} in a run, {} in results", tread_levels(c), tread_levels_of_results(c)));
   if (c.load.travel || c.contact.with == Counterpart::ring) return levels;
   const double radius = contact_radius(c);
