@@ -172,7 +172,9 @@ std::optional<int> to_be_freed(const BoxProgram& program, const std::vector<bool
 }  // namespace
 
 BoxSolution solve(const BoxProgram& given) {
-  const auto [program, unit] = scaled(given);
+  const auto of_units = scaled(given);  // a lambda cannot capture a structured binding in all compilers
+  const auto& program = of_units.program;
+  const auto& unit = of_units.unit;
   const size_t n = program.linear.size();
   std::vector<double> x(n);
   std::vector<bool> is_free(n);
@@ -218,7 +220,9 @@ BoxSolution solve(const BoxProgram& given) {
 }
 
 double residual(const BoxProgram& given, const std::vector<double>& x) {
-  const auto [program, unit] = scaled(given);
+  const auto of_units = scaled(given);  // a lambda cannot capture a structured binding in all compilers
+  const auto& program = of_units.program;
+  const auto& unit = of_units.unit;
   std::vector<double> y(x.size());
   for (size_t i = 0; i < x.size(); ++i) y[i] = x[i] / unit[i];
   const auto g = gradient(program, y);

@@ -3,8 +3,6 @@
 #include <cblas.h>
 #include <lapacke.h>
 
-#include <ranges>
-
 namespace wheelwright {
 namespace {
 
@@ -113,8 +111,8 @@ void TwoBlockCholesky<Scalar>::solve_last(DenseMatrix<Scalar>& loads) const {
   if (loads.columns() == 0) return;
   for (const Panel& panel : l_.panels())
     if (panel.first >= l_.n_first()) forward(panel, l_.n_first(), loads);
-  for (const Panel& panel : std::views::reverse(l_.panels()))
-    if (panel.first >= l_.n_first()) backward(panel, l_.n_first(), loads);
+  for (auto panel = l_.panels().rbegin(); panel != l_.panels().rend(); ++panel)
+    if (panel->first >= l_.n_first()) backward(*panel, l_.n_first(), loads);
 }
 
 template <class Scalar>
@@ -132,8 +130,8 @@ DenseMatrix<Scalar> TwoBlockCholesky<Scalar>::last_inverse() const {
 template <class Scalar>
 void TwoBlockCholesky<Scalar>::substitute(DenseMatrix<Scalar>& x) const {
   if (x.columns() == 0) return;
-  for (const Panel& panel : std::views::reverse(l_.panels()))
-    if (panel.first < l_.n_first()) backward(panel, 0, x);
+  for (auto panel = l_.panels().rbegin(); panel != l_.panels().rend(); ++panel)
+    if (panel->first < l_.n_first()) backward(*panel, 0, x);
 }
 
 template class TwoBlockCholesky<double>;

@@ -240,7 +240,8 @@ struct Work {
 /// parts of a ring that is symmetric across its width have half the size.
 template <int dim>
 Work work_of_solving(const CyclicStiffness<dim>& ring, double n_loads) {
-  const double outer = ring.n_outer(), n_harmonics = ring.n_sectors() / 2 + 1;
+  const int n_harmonics = ring.n_sectors() / 2 + 1;
+  const double outer = ring.n_outer();
   return {.triangular = n_loads * n_harmonics * (ring.is_mirror_symmetric() ? 2 : 4) * 2 * outer * outer *
                         (ring.is_symmetric_across_width() ? 0.5 : 1),
           .products = n_loads * n_harmonics * 8 * ring.n_sectors() * outer};
@@ -249,8 +250,8 @@ Work work_of_solving(const CyclicStiffness<dim>& ring, double n_loads) {
 template <int dim>
 Work work_of_inverting(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
                        std::span<const int> seams) {
-  const double outer = ring.n_outer(), n_harmonics = ring.n_sectors() / 2 + 1,
-               n_base = tread.base_per_column(), reach = tread.base_reach();
+  const int n_harmonics = ring.n_sectors() / 2 + 1;
+  const double outer = ring.n_outer(), n_base = tread.base_per_column(), reach = tread.base_reach();
   Work work{.triangular = n_harmonics * (ring.is_mirror_symmetric() ? 1 : 4) * 2.0 / 3 * outer * outer *
                           outer * (ring.is_symmetric_across_width() ? 0.25 : 1),
             .products = 0};

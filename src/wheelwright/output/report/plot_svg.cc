@@ -151,7 +151,7 @@ std::string band_svg(const PlotCurve& curve, const Scale& x, const Scale& y, std
     const double low = y(curve.y[i] - curve.errors[i]), high = y(curve.y[i] + curve.errors[i]);
     if (!std::isfinite(low) || !std::isfinite(high)) return "";
     there += fmt::format("{}{:.2f} {:.2f}", i == 0 ? 'M' : 'L', x(curve.x[i]), low);
-    back = fmt::format("L{:.2f} {:.2f}", x(curve.x[i]), high) + back;
+    back.insert(0, fmt::format("L{:.2f} {:.2f}", x(curve.x[i]), high));
   }
   if (there.empty()) return "";
   return fmt::format("<path class=\"band\" fill=\"{}\" fill-opacity=\"0.2\" d=\"{}{}Z\"/>\n", colour, there,
