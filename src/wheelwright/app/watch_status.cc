@@ -9,7 +9,7 @@ namespace wheelwright {
 
 template <int dim>
 WatchStatus<dim>::~WatchStatus() {
-  if (is_shown_ && repaints_) print_to(stream_, "\n");
+  if (is_shown_ && repaints_) std::fputc('\n', stream_);
 }
 
 template <int dim>

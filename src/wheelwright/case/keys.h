@@ -289,7 +289,8 @@ inline constexpr bool is_section_of = false;
 template <class Struct, class Table>
 inline constexpr bool is_section_of<Struct, const Section<Table>& (*)()> = std::derived_from<Table, Struct>;
 template <class Struct, class Table>
-inline constexpr bool is_section_of<Struct, const SectionArray<Table>& (*)()> = std::derived_from<Table, Struct>;
+inline constexpr bool is_section_of<Struct, const SectionArray<Table>& (*)()> =
+    std::derived_from<Table, Struct>;
 
 /// The first Section or SectionArray, from i on, whose tables are of Struct or of a type derived from it.
 template <class Struct, std::size_t i = 0>
