@@ -94,7 +94,7 @@ void write_fields(const std::filesystem::path& folder, const RollingReport& repo
   write_wheel_pictures(
       folder,
       {.prefix = "", .title = report.title, .width = report.width, .n_positions = solver.model().n_positions},
-      shape, states.domain(), position_fields(solver, states, most_stressed_position(states)));
+      shape, states.domain(), most_stressed_fields(solver, states));
 }
 
 std::string check_loads(const std::string& text) {

@@ -9,9 +9,8 @@
 namespace wheelwright {
 namespace {
 
-/// A tensor from its components in the plane or in space (StressRows), and from that along the axle when dim
-/// =
-/// 2. `shear`: a component beside the diagonal by that of the rows.
+/// A tensor from its components in Voigt's order; when dim = 2 with the one along the axle. `shear`: what a
+/// component beside the diagonal is of the given one, 1/2 for engineering strains.
 template <int dim>
 SymmetricTensor tensor(const Voigt<dim>& components, double axial, double shear) {
   if constexpr (dim == 2) return {components[0], components[1], axial, 0, 0, shear * components[2]};
@@ -83,7 +82,7 @@ std::array<SymmetricTensor, n_strains<dim>> unit_tensors(const MaterialLaw<dim>&
   return result;
 }
 
-/// Calls visit(measure, tensors, unit_tensors) with a measure of stresses or strains.
+/// Calls visit(measure, tensors, is_of_stress) with the measure and its history of stresses or strains.
 template <int dim, class Visit>
 void with_measure(const StrainsAtPoint<dim>& point, const FatigueStrength& strength, Visit visit) {
   const History<dim> history(point);
@@ -101,15 +100,11 @@ void with_measure(const StrainsAtPoint<dim>& point, const FatigueStrength& stren
   }
 }
 
-const FatigueStrength* strength_of_energy(const FatigueStrength& strength) {
-  return strength.measure == FatigueMeasure::strain_energy ? &strength : nullptr;
-}
-
 /// Samples of the utilization, at least 0.
 template <int dim>
 void utilization_of_samples(const StrainsAtPoint<dim>& point, const FatigueStrength& strength,
                             std::span<double> values) {
-  if (strength_of_energy(strength))
+  if (strength.measure == FatigueMeasure::strain_energy)
     point.law.energy_density(point.strains, values);
   else
     with_measure(point, strength, [&](const auto& measure, const auto& tensors, bool) {
@@ -120,10 +115,10 @@ void utilization_of_samples(const StrainsAtPoint<dim>& point, const FatigueStren
 
 /// The derivative of sum_j factor_j u_j with respect to the strains, u the samples of the utilization.
 template <int dim>
-void add_slopes(const StrainsAtPoint<dim>& point, const FatigueStrength& strength,
+void set_slopes(const StrainsAtPoint<dim>& point, const FatigueStrength& strength,
                 std::vector<double> factors, const StressRows<dim>& slopes) {
   for (double& factor : factors) factor /= strength.limit;
-  if (strength_of_energy(strength)) {
+  if (strength.measure == FatigueMeasure::strain_energy) {
     point.law.stress(point.strains, slopes);
     for (int k = 0; k < n_strains<dim>; ++k)
       for (std::size_t j = 0; j < factors.size(); ++j) slopes[k][j] *= factors[j];
@@ -150,7 +145,7 @@ template <int dim>
 double fatigue_utilization(const StrainsAtPoint<dim>& point) {
   const FatigueStrength* strength = point.law.fatigue_strength();
   if (!strength) return 0;
-  if (strength_of_energy(*strength)) {
+  if (strength->measure == FatigueMeasure::strain_energy) {
     std::vector<double> values(point.n_cases());
     utilization_of_samples(point, *strength, values);
     return std::ranges::max(values);
@@ -182,10 +177,11 @@ void UtilizationPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<c
   utilization_of_samples(point, *strength, shares);
   for (int j = 0; j < point.n_cases(); ++j)
     shares[j] = factors[j] * exponent_ * std::pow(shares[j], exponent_ - 1);
-  const double least = negligible * std::ranges::max(shares);
+  const auto size = [](double share) { return std::abs(share); };
+  const double least = negligible * size(std::ranges::max(shares, {}, size));
   for (double& share : shares)
-    if (std::abs(share) < least) share = 0;
-  add_slopes(point, *strength, std::move(shares), slopes);
+    if (size(share) < least) share = 0;
+  set_slopes(point, *strength, std::move(shares), slopes);
 }
 
 template <int dim>

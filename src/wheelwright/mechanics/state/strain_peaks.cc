@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/mechanics/elasticity/symmetric_tensor.h"
 #include "wheelwright/mechanics/state/material_rule.h"
 
 namespace wheelwright {
@@ -110,19 +110,10 @@ std::array<double, 3> principal_strains<2>(const double* strain, double axial_st
   return {mean + radius, mean - radius, axial_strain};
 }
 
-/// The eigenvalues of a symmetric 3 x 3 matrix by the cosine of a third of an angle.
 template <>
 std::array<double, 3> principal_strains<3>(const double* strain, double) {
-  const double mean = (strain[0] + strain[1] + strain[2]) / 3;
-  const double a = strain[0] - mean, b = strain[1] - mean, c = strain[2] - mean;
-  const double d = 0.5 * strain[3], e = 0.5 * strain[4], f = 0.5 * strain[5];
-  const double radius = std::sqrt((a * a + b * b + c * c + 2 * (d * d + e * e + f * f)) / 6);
-  if (radius == 0) return {mean, mean, mean};
-  const double determinant = a * b * c + 2 * d * e * f - a * d * d - b * e * e - c * f * f;
-  const double angle = std::acos(std::clamp(determinant / (2 * radius * radius * radius), -1.0, 1.0)) / 3;
-  constexpr double third = 2 * std::numbers::pi / 3;
-  return {mean + 2 * radius * std::cos(angle), mean + 2 * radius * std::cos(angle - third),
-          mean + 2 * radius * std::cos(angle + third)};
+  return principal_values(
+      {strain[0], strain[1], strain[2], 0.5 * strain[3], 0.5 * strain[4], 0.5 * strain[5]});
 }
 
 template <int dim>

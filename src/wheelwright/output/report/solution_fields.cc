@@ -7,6 +7,7 @@
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/report/cell_means.h"
 #include "wheelwright/output/report/fatigue_field.h"
+#include "wheelwright/quantities/analysis/shape_summary.h"
 
 namespace wheelwright {
 namespace {
@@ -353,8 +354,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
           .contact = points_at(solver, state, source, position),
           .von_mises = peak_at(lattice.grid(), state.strain_peaks(), source),
-          .layers = layer_circles(solver.model().materials),
-          .fatigue = fatigue_field(solver, state)};
+          .layers = layer_circles(solver.model().materials)};
 }
 
 }  // namespace
@@ -363,6 +363,13 @@ template <int dim>
 PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<dim>& state, int position) {
   const auto sources = position_sources(state.positions(), solver.model().n_positions);
   return fields_at(solver, state, sources[position], position);
+}
+
+template <int dim>
+PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state) {
+  PositionFields<dim> fields = position_fields(solver, state, most_stressed_position(state));
+  fields.fatigue = fatigue_field(solver, state);
+  return fields;
 }
 
 template <int dim>
@@ -431,6 +438,8 @@ std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points) {
 }
 
 template decltype(position_fields<2>) position_fields<2>;
+template decltype(most_stressed_fields<2>) most_stressed_fields<2>;
+template decltype(most_stressed_fields<3>) most_stressed_fields<3>;
 template decltype(for_each_position<2>) for_each_position<2>;
 template decltype(named_fields<2>) named_fields<2>;
 template Lattice<2> displacement_lattice(const RollingModel<2>&);

@@ -38,11 +38,16 @@ struct PositionFields {
   std::vector<ContactPoint> contact;
   DrawnPeak<dim> von_mises;
   LayerCircles layers = {};
-  std::optional<RingField> fatigue = {};  ///< fatigue_field()
+  std::optional<RingField> fatigue = {};  ///< fatigue_field(), if it was asked for
 };
 
 template <int dim>
 PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<dim>& state, int position);
+
+/// The fields of the most_stressed_position(), with the fatigue of the turn, for pictures and files of one
+/// position.
+template <int dim>
+PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state);
 
 /// Calls visit(position, fields) for every load position of a sector, one after the other; images are
 /// reflected.

@@ -8,6 +8,7 @@
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/output/report/fatigue_field.h"
 #include "wheelwright/output/report/shape_boundary.h"
 #include "wheelwright/output/report/solid_mesh.h"
 #include "wheelwright/output/report/solution_fields.h"
@@ -86,8 +87,7 @@ void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& sol
                           .title = run_title(run.study.source) + ", " + name,
                           .width = run.study.source.wheel.width,
                           .n_positions = model.n_positions},
-                         shape, (*state)->domain(),
-                         position_fields(solver, **state, most_stressed_position(**state)));
+                         shape, (*state)->domain(), most_stressed_fields(solver, **state));
   }
 }
 
@@ -118,13 +118,15 @@ void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>
   if (!rolling_) rolling_.emplace(run.folder, shape, *shown.ended.solver, solution);
   rolling_->write(shown.position, shown.fields);
   if (shown.position != most_stressed_position(solution)) return;
-  write_surface(run, shape, shown.fields);
+  PositionFields<dim> worst = shown.fields;
+  worst.fatigue = fatigue_field(*shown.ended.solver, solution);
+  write_surface(run, shape, worst);
   write_wheel_pictures(run.folder,
                        {.prefix = "",
                         .title = run_title(run.study.source),
                         .width = run.study.source.wheel.width,
                         .n_positions = run.study.model().n_positions},
-                       shape, solution.domain(), shown.fields);
+                       shape, solution.domain(), worst);
 }
 
 template class ResultFiles<2>;

@@ -53,7 +53,7 @@ template <int dim>
 void ShapeFiles<dim>::write(const TrialDone<dim>& done, const RunView<dim>& run) {
   const StateSolver<dim>& solver = *run.study.solver;
   const State<dim>& solution = *done.trial.solution;
-  const PositionFields<dim> worst = position_fields(solver, solution, most_stressed_position(solution));
+  const PositionFields<dim> worst = most_stressed_fields(solver, solution);
   auto fields = named_fields(worst);
   if (const auto gradient = shape_gradient_field(done.state, run.evolver))
     fields.push_back(
@@ -80,8 +80,7 @@ void ShapePictures<dim>::operator()(const Event<dim>& event, const RunView<dim>&
        .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration),
        .width = run.study.source.wheel.width,
        .n_positions = run.study.model().n_positions},
-      done->state.shape, solution.domain(),
-      position_fields(*run.study.solver, solution, most_stressed_position(solution)));
+      done->state.shape, solution.domain(), most_stressed_fields(*run.study.solver, solution));
 }
 
 template class ShapeFiles<2>;
