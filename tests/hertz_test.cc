@@ -103,7 +103,7 @@ struct LayeredHalfPlane {
 /// G. D. Gupta, Quart. Appl. Math. 29, 1972): the displacement of a line load on the surface is
 ///   -2 / (pi E1) log |x| - d / pi log sqrt(x^2 + h^2) + 1 / pi int_0^inf smooth(k) cos(k x) dk,
 /// E1 and E2 the moduli E* of layer and half-plane, d = 2 / E2 - 2 / E1: the second term has the far field of
-/// the half-plane alone.
+/// the half-plane without its layer.
 class LayeredContact {
  public:
   LayeredContact(const LayeredHalfPlane& body, double radius, int points)

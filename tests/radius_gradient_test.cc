@@ -180,7 +180,7 @@ TEST(RadiusGradient, UnderDistributedLoadsPassesTheTaylorTest) {
 }
 
 /// Also with rows of cells that are cut by one hole and stretched in opposite directions, with cords on the
-/// line above, and with the ghost penalty of the first derivative alone.
+/// line above, and with the ghost penalty of only the first derivative.
 TEST(RadiusGradient, WithCordsAndOtherPenaltiesPassesTheTaylorTest) {
   auto wheel = generic_wheel(20);
   wheel.model.materials = Materials<2>({{0.3, std::make_shared<IsotropicLaw<2>>(Material())}},

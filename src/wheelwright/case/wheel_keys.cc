@@ -263,8 +263,9 @@ const SectionArray<MaterialCord>& material_cord_sections() {
       .parent = "material",
       .name = "cord",
       .meaning =
-          "thin cords side by side along a circle, such as a belt: they resist strain along the azimuth "
-          "alone, and have no mass. A line of the grid moves to the circle, which lies in material that has "
+          "thin cords side by side along a circle, such as a belt: they resist only strain along the "
+          "azimuth, and have no mass. A line of the grid moves to the circle, which lies in material that "
+          "has "
           "no holes: a layer with holes = \"none\", or a band at rim or tread",
       .in = [](Case& c) -> std::vector<MaterialCord>& { return c.cords; },
       .example = {.radius = 0.335, .stiffness = 2e6},

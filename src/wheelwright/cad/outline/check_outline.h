@@ -32,8 +32,8 @@ struct OutlineReport {
 Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& outline,
                                                                  const LevelSet<2>& psi, double tolerance);
 
-/// Where edges cross or touch once they are replaced by chords within `tolerance` [m]: nowhere if triangles
-/// between the chords can fill the material.
+/// The places at which edges cross or touch once chords within `tolerance` [m] replace them; none if
+/// triangles between the chords can fill the material.
 std::vector<OutlineFault> crossing_faults(const Outline& outline, double tolerance);
 
 /// The report as text, one line per number.
