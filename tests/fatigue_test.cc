@@ -91,8 +91,9 @@ TEST(Fatigue, PassesTheTaylorTest) {
       const TaylorTest test = tested<2>(model, psi, testing::smooth_direction(psi.lattice));
       const bool is_smooth =
           measure == FatigueMeasure::principal_strain || measure == FatigueMeasure::strain_energy;
-      if (is_smooth)
+      if (is_smooth) {
         for (const double order : test.orders) EXPECT_GT(order, 1.9);
+      }
       EXPECT_LT(error_of_derivative(test), measure == FatigueMeasure::dang_van ? 5e-3 : 5e-4);
     }
 }

@@ -114,7 +114,9 @@ TEST(TurnHarmonics, FindTheHarmonicsOfTheTurn) {
         }
       const Matrix amplitudes = product(waves, Op::transpose, history, Op::none);
       for (int wave = 0; wave < n; ++wave)
-        if (TurnHarmonics::harmonic(wave) != k) EXPECT_NEAR(amplitudes(wave, 0), 0, 1e-12);
+        if (TurnHarmonics::harmonic(wave) != k) {
+          EXPECT_NEAR(amplitudes(wave, 0), 0, 1e-12);
+        }
       std::vector<double> factors;
       for (int h = 0; h < turn.n_harmonics(); ++h) factors.push_back(1 + h * h);
       const Matrix filtered = product(turn.filter(factors), Op::none, history, Op::none);

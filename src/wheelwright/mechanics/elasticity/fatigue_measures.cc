@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
+#include "wheelwright/base/integer_power.h"
 #include "wheelwright/mechanics/elasticity/smallest_ball.h"
 
 namespace wheelwright {
@@ -41,10 +43,9 @@ SymmetricTensor deviator(const SmallestBall::Point& x) {
   return t;
 }
 
-SmallestBall ball_of_deviators(TensorHistory stresses) {
-  std::vector<SmallestBall::Point> points;
-  for (const SymmetricTensor& stress : stresses) points.push_back(deviator_coordinates(stress));
-  return SmallestBall(points);
+/// sqrt(t:t), which no eigenvalue exceeds.
+double size(const SymmetricTensor& t) {
+  return std::sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2] + 2 * (t[3] * t[3] + t[4] * t[4] + t[5] * t[5]));
 }
 
 constexpr SymmetricTensor unit{1, 1, 1, 0, 0, 0};
@@ -65,15 +66,18 @@ struct OfPrincipal {
 
 constexpr int exponent = 16;
 
+double sixteenth_root(double x) { return std::sqrt(std::sqrt(std::sqrt(std::sqrt(x)))); }
+
 /// (sum of the positive e_i^16)^(1/16).
 OfPrincipal smooth_largest(const std::array<double, 3>& e) {
   const double most = e[0];
   if (most <= 0) return {0, {}};
   double sum = 0;
-  for (const double x : e) sum += std::pow(std::max(0.0, x / most), exponent);
-  const double norm = std::pow(sum, 1.0 / exponent);
+  for (const double x : e) sum += integer_power(std::max(0.0, x / most), exponent);
+  const double norm = sixteenth_root(sum);
   OfPrincipal result{most * norm, {}};
-  for (int i = 0; i < 3; ++i) result.slopes[i] = std::pow(std::max(0.0, e[i] / result.value), exponent - 1);
+  for (int i = 0; i < 3; ++i)
+    result.slopes[i] = integer_power(std::max(0.0, e[i] / result.value), exponent - 1);
   return result;
 }
 
@@ -83,9 +87,9 @@ OfPrincipal smooth_shear(const std::array<double, 3>& e) {
   if (most == 0) return {0, {}};
   const double differences[3] = {(e[0] - e[1]) / most, (e[1] - e[2]) / most, 1};
   double sum = 0;
-  for (const double x : differences) sum += 0.5 * std::pow(x, exponent);
-  const double norm = std::pow(sum, 1.0 / exponent);
-  const auto slope = [&](double x) { return 0.25 * std::pow(x / norm, exponent - 1); };
+  for (const double x : differences) sum += 0.5 * integer_power(x, exponent);
+  const double norm = sixteenth_root(sum);
+  const auto slope = [&](double x) { return 0.25 * integer_power(x / norm, exponent - 1); };
   const double a = slope(differences[0]), b = slope(differences[1]), c = slope(differences[2]);
   return {0.5 * most * norm, {a + c, b - a, -b - c}};
 }
@@ -137,6 +141,38 @@ GoodmanValue goodman(double amplitude, double mean, double ultimate_strength) {
   return {amplitude * factor, factor, counts ? amplitude * factor * factor / ultimate_strength : 0};
 }
 
+/// The smallest ball around the path of the deviators. It is found only where its radius may matter: where
+/// the measure may reach a least one.
+class DeviatorBall {
+ public:
+  /// `measure(radius)`: a bound of the measure by a bound of the radius.
+  template <class Bound>
+  DeviatorBall(TensorHistory stresses, double least, const Bound& measure) {
+    std::vector<SmallestBall::Point> points;
+    for (const SymmetricTensor& stress : stresses) points.push_back(deviator_coordinates(stress));
+    if (least <= 0 || measure(radius_about_mean(points)) >= least) ball_.emplace(points);
+  }
+
+  bool matters() const { return ball_.has_value(); }
+  const SmallestBall& ball() const { return *ball_; }
+
+ private:
+  static double radius_about_mean(const std::vector<SmallestBall::Point>& points) {
+    SmallestBall::Point mean{};
+    for (const auto& point : points)
+      for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += point[k] / static_cast<double>(points.size());
+    double square = 0;
+    for (const auto& point : points) {
+      double distance = 0;
+      for (std::size_t k = 0; k < mean.size(); ++k) distance += (point[k] - mean[k]) * (point[k] - mean[k]);
+      square = std::max(square, distance);
+    }
+    return std::sqrt(square);
+  }
+
+  std::optional<SmallestBall> ball_;
+};
+
 /// sqrt(3 J2)_a by the radius of the ball of the deviators.
 const double amplitude_by_radius = std::sqrt(1.5);
 
@@ -145,104 +181,202 @@ std::vector<double> negative(std::vector<double> x) {
   return x;
 }
 
+class PrincipalHistory : public MeasuredHistory {
+ public:
+  PrincipalHistory(TensorHistory strains, double least) : strains_(strains), least_(least) {}
+
+  double value() const override {
+    double largest = -INFINITY;
+    for (const SymmetricTensor& strain : strains_)
+      if (size(strain) >= std::max(largest, least_)) largest = std::max(largest, principal_values(strain)[0]);
+    return std::isfinite(largest) ? largest : 0;
+  }
+
+  std::vector<double> samples() const override {
+    const double most = sixteenth_root(3);  // of a norm by the largest eigenvalue
+    return of_each(strains_, [&](const SymmetricTensor& t) {
+      return most * size(t) < least_ ? 0 : smooth_largest(principal_values(t)).value;
+    });
+  }
+
+  Slopes slopes(std::span<const double> factors) const override {
+    Slopes result(strains_.size(), SymmetricTensor{});
+    for (std::size_t j = 0; j < strains_.size(); ++j)
+      if (factors[j] != 0)
+        result[j] = by_tensor(factors[j], smooth_largest(principal_values(strains_[j])), strains_[j]);
+    return result;
+  }
+
+ private:
+  TensorHistory strains_;
+  double least_;
+};
+
+class CrosslandHistory : public MeasuredHistory {
+ public:
+  CrosslandHistory(double pressure_factor, TensorHistory stresses, double least)
+      : pressure_factor_(pressure_factor), stresses_(stresses), ball_(stresses, least, [&](double radius) {
+          return radius / std::sqrt(2.0) + pressure_factor * std::ranges::max(of_each(stresses, trace)) / 3;
+        }) {}
+
+  double value() const override { return std::ranges::max(samples()); }
+
+  std::vector<double> samples() const override {
+    if (!ball_.matters()) return std::vector<double>(stresses_.size(), 0.0);
+    const double amplitude = ball_.ball().radius() / std::sqrt(2.0);
+    return of_each(stresses_,
+                   [&](const SymmetricTensor& t) { return amplitude + pressure_factor_ * trace(t) / 3; });
+  }
+
+  Slopes slopes(std::span<const double> factors) const override {
+    Slopes result(stresses_.size(), SymmetricTensor{});
+    if (!ball_.matters()) return result;
+    for (std::size_t j = 0; j < factors.size(); ++j)
+      result[j] = scaled(factors[j] * pressure_factor_ / 3, unit);
+    const double of_radius = std::accumulate(factors.begin(), factors.end(), 0.0) / std::sqrt(2.0);
+    for (const auto& [sample, slope] : ball_.ball().slopes_of_radius())
+      add(of_radius, by_tensor(slope), result[sample]);
+    return result;
+  }
+
+ private:
+  double pressure_factor_;
+  TensorHistory stresses_;
+  DeviatorBall ball_;
+};
+
+class DangVanHistory : public MeasuredHistory {
+ public:
+  DangVanHistory(double pressure_factor, TensorHistory stresses, double least)
+      : pressure_factor_(pressure_factor),
+        stresses_(stresses),
+        least_(least),
+        // The shear stress about the center is at most the radius by sqrt(2).
+        ball_(stresses, least, [&](double radius) {
+          return radius / std::sqrt(2.0) + pressure_factor * std::ranges::max(of_each(stresses, trace)) / 3;
+        }) {
+    if (!ball_.matters()) return;
+    const SymmetricTensor center = deviator(ball_.ball().center());
+    for (const SymmetricTensor& stress : stresses_) about_center_.push_back(difference(stress, center));
+  }
+
+  double value() const override {
+    double largest = -INFINITY;
+    for (const SymmetricTensor& stress : about_center_)
+      if (bound(stress) >= std::max(largest, least_)) {
+        const auto principal = principal_values(stress);
+        largest = std::max(largest, 0.5 * (principal[0] - principal[2]) + of_pressure(stress));
+      }
+    return std::isfinite(largest) ? largest : 0;
+  }
+
+  std::vector<double> samples() const override {
+    if (!ball_.matters()) return std::vector<double>(stresses_.size(), 0.0);
+    return of_each(about_center_, [&](const SymmetricTensor& stress) {
+      return least_ > 0 && bound(stress) < least_
+                 ? 0
+                 : smooth_shear(principal_values(stress)).value + of_pressure(stress);
+    });
+  }
+
+  Slopes slopes(std::span<const double> factors) const override {
+    Slopes result(stresses_.size(), SymmetricTensor{});
+    if (!ball_.matters()) return result;
+    SymmetricTensor all_shears{};
+    for (std::size_t j = 0; j < stresses_.size(); ++j) {
+      if (factors[j] == 0) continue;
+      const SymmetricTensor shear = by_tensor(factors[j], smooth_shear(principal_values(about_center_[j])),
+                                              about_center_[j]);  // a deviator
+      add(1, shear, all_shears);
+      add(1, shear, result[j]);
+      add(factors[j] * pressure_factor_ / 3, unit, result[j]);
+    }
+    for (int k = 3; k < 6; ++k) all_shears[k] /= 2;
+    for (const auto& [sample, slope] : ball_.ball().slopes_of_center(deviator_coordinates(all_shears)))
+      add(-1, by_tensor(slope), result[sample]);
+    return result;
+  }
+
+ private:
+  // Of s - s* + p I, the stress less the center.
+  double of_pressure(const SymmetricTensor& about_center) const {
+    return pressure_factor_ * trace(about_center) / 3;
+  }
+  double bound(const SymmetricTensor& about_center) const {
+    return size(about_center) / std::sqrt(2.0) + of_pressure(about_center);
+  }
+
+  double pressure_factor_;
+  TensorHistory stresses_;
+  double least_;
+  DeviatorBall ball_;
+  std::vector<SymmetricTensor> about_center_;
+};
+
+class GoodmanHistory : public MeasuredHistory {
+ public:
+  GoodmanHistory(double ultimate_strength, TensorHistory stresses, double least)
+      : ultimate_strength_(ultimate_strength),
+        traces_(of_each(stresses, trace)),
+        ball_(stresses, least, [&](double radius) {
+          // Its smooth maximum and minimum leave the range of the trace by less than half of its size.
+          const double most = 1.5 * std::ranges::max(of_each(stresses, [](const SymmetricTensor& t) {
+                                return std::abs(trace(t));
+                              }));
+          return goodman(amplitude_by_radius * radius, most, ultimate_strength).value;
+        }) {}
+
+  double value() const override {
+    if (!ball_.matters()) return 0;
+    const auto [low, high] = std::ranges::minmax(traces_);
+    return of_mean(0.5 * (low + high)).value;
+  }
+
+  std::vector<double> samples() const override {
+    if (!ball_.matters()) return std::vector<double>(traces_.size(), 0.0);
+    const double mean = 0.5 * (smooth_maximum(traces_).value - smooth_maximum(negative(traces_)).value);
+    return std::vector<double>(traces_.size(), of_mean(mean).value);
+  }
+
+  Slopes slopes(std::span<const double> factors) const override {
+    Slopes result(traces_.size(), SymmetricTensor{});
+    if (!ball_.matters()) return result;
+    const SmoothMaximum high = smooth_maximum(traces_), minus_low = smooth_maximum(negative(traces_));
+    const GoodmanValue measure = of_mean(0.5 * (high.value - minus_low.value));
+    const double factor = std::accumulate(factors.begin(), factors.end(), 0.0);
+    for (std::size_t j = 0; j < traces_.size(); ++j)
+      result[j] = scaled(0.5 * factor * measure.by_mean * (high.slopes[j] + minus_low.slopes[j]), unit);
+    for (const auto& [sample, slope] : ball_.ball().slopes_of_radius())
+      add(factor * measure.by_amplitude * amplitude_by_radius, by_tensor(slope), result[sample]);
+    return result;
+  }
+
+ private:
+  GoodmanValue of_mean(double mean) const {
+    return goodman(amplitude_by_radius * ball_.ball().radius(), mean, ultimate_strength_);
+  }
+
+  double ultimate_strength_;
+  std::vector<double> traces_;
+  DeviatorBall ball_;
+};
+
 }  // namespace
 
-double LargestPrincipal::value(TensorHistory strains) const {
-  return std::ranges::max(of_each(strains, [](const SymmetricTensor& t) { return principal_values(t)[0]; }));
+std::unique_ptr<const MeasuredHistory> LargestPrincipal::of(TensorHistory strains, double least) const {
+  return std::make_unique<PrincipalHistory>(strains, least);
 }
 
-std::vector<double> LargestPrincipal::samples(TensorHistory strains) const {
-  return of_each(strains, [](const SymmetricTensor& t) { return smooth_largest(principal_values(t)).value; });
+std::unique_ptr<const MeasuredHistory> Crossland::of(TensorHistory stresses, double least) const {
+  return std::make_unique<CrosslandHistory>(pressure_factor, stresses, least);
 }
 
-Slopes LargestPrincipal::slopes(TensorHistory strains, std::span<const double> factors) const {
-  Slopes result(strains.size(), SymmetricTensor{});
-  for (std::size_t j = 0; j < strains.size(); ++j)
-    if (factors[j] != 0)
-      result[j] = by_tensor(factors[j], smooth_largest(principal_values(strains[j])), strains[j]);
-  return result;
+std::unique_ptr<const MeasuredHistory> DangVan::of(TensorHistory stresses, double least) const {
+  return std::make_unique<DangVanHistory>(pressure_factor, stresses, least);
 }
 
-double Crossland::value(TensorHistory stresses) const { return std::ranges::max(samples(stresses)); }
-
-std::vector<double> Crossland::samples(TensorHistory stresses) const {
-  const double amplitude = ball_of_deviators(stresses).radius() / std::sqrt(2.0);
-  return of_each(stresses,
-                 [&](const SymmetricTensor& t) { return amplitude + pressure_factor * trace(t) / 3; });
-}
-
-Slopes Crossland::slopes(TensorHistory stresses, std::span<const double> factors) const {
-  Slopes result;
-  for (const double factor : factors) result.push_back(scaled(factor * pressure_factor / 3, unit));
-  const double of_radius = std::accumulate(factors.begin(), factors.end(), 0.0) / std::sqrt(2.0);
-  for (const auto& [sample, slope] : ball_of_deviators(stresses).slopes_of_radius())
-    add(of_radius, by_tensor(slope), result[sample]);
-  return result;
-}
-
-double DangVan::value(TensorHistory stresses) const {
-  const SymmetricTensor center = deviator(ball_of_deviators(stresses).center());
-  return std::ranges::max(of_each(stresses, [&](const SymmetricTensor& stress) {
-    const auto principal = principal_values(difference(stress, center));
-    return 0.5 * (principal[0] - principal[2]) + pressure_factor * trace(stress) / 3;
-  }));
-}
-
-std::vector<double> DangVan::samples(TensorHistory stresses) const {
-  const SymmetricTensor center = deviator(ball_of_deviators(stresses).center());
-  return of_each(stresses, [&](const SymmetricTensor& stress) {
-    return smooth_shear(principal_values(difference(stress, center))).value +
-           pressure_factor * trace(stress) / 3;
-  });
-}
-
-Slopes DangVan::slopes(TensorHistory stresses, std::span<const double> factors) const {
-  const SmallestBall ball = ball_of_deviators(stresses);
-  const SymmetricTensor center = deviator(ball.center());
-  Slopes result(stresses.size(), SymmetricTensor{});
-  SymmetricTensor all_shears{};
-  for (std::size_t j = 0; j < stresses.size(); ++j) {
-    if (factors[j] == 0) continue;
-    const SymmetricTensor about_center = difference(stresses[j], center);
-    const SymmetricTensor shear =
-        by_tensor(factors[j], smooth_shear(principal_values(about_center)), about_center);  // a deviator
-    add(1, shear, all_shears);
-    add(1, shear, result[j]);
-    add(factors[j] * pressure_factor / 3, unit, result[j]);
-  }
-  for (int k = 3; k < 6; ++k) all_shears[k] /= 2;
-  for (const auto& [sample, slope] : ball.slopes_of_center(deviator_coordinates(all_shears)))
-    add(-1, by_tensor(slope), result[sample]);
-  return result;
-}
-
-double Goodman::value(TensorHistory stresses) const {
-  const auto [low, high] = std::ranges::minmax(of_each(stresses, trace));
-  return goodman(amplitude_by_radius * ball_of_deviators(stresses).radius(), 0.5 * (low + high),
-                 ultimate_strength)
-      .value;
-}
-
-std::vector<double> Goodman::samples(TensorHistory stresses) const {
-  const std::vector<double> traces = of_each(stresses, trace);
-  const double mean = 0.5 * (smooth_maximum(traces).value - smooth_maximum(negative(traces)).value);
-  const double amplitude = amplitude_by_radius * ball_of_deviators(stresses).radius();
-  return std::vector<double>(stresses.size(), goodman(amplitude, mean, ultimate_strength).value);
-}
-
-Slopes Goodman::slopes(TensorHistory stresses, std::span<const double> factors) const {
-  const std::vector<double> traces = of_each(stresses, trace);
-  const SmoothMaximum high = smooth_maximum(traces), minus_low = smooth_maximum(negative(traces));
-  const SmallestBall ball = ball_of_deviators(stresses);
-  const GoodmanValue measure =
-      goodman(amplitude_by_radius * ball.radius(), 0.5 * (high.value - minus_low.value), ultimate_strength);
-  const double factor = std::accumulate(factors.begin(), factors.end(), 0.0);
-  Slopes result;
-  for (std::size_t j = 0; j < traces.size(); ++j)
-    result.push_back(scaled(0.5 * factor * measure.by_mean * (high.slopes[j] + minus_low.slopes[j]), unit));
-  for (const auto& [sample, slope] : ball.slopes_of_radius())
-    add(factor * measure.by_amplitude * amplitude_by_radius, by_tensor(slope), result[sample]);
-  return result;
+std::unique_ptr<const MeasuredHistory> Goodman::of(TensorHistory stresses, double least) const {
+  return std::make_unique<GoodmanHistory>(ultimate_strength, stresses, least);
 }
 
 }  // namespace wheelwright

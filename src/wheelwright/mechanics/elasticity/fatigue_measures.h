@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,19 +11,32 @@ namespace wheelwright {
 // Measures of the history of stresses or strains of a material point over a turn. None depends on the order
 // of the samples, at least one; each is the same in every frame. A turn is the cycle: the wheel repeats it,
 // so that no cycles need to be counted (rainflow).
-//
-// value(history) is the measure. The largest of samples(history), one value per sample, is near it, by a few
-// per cent at most, and depends smoothly on the history, unlike maxima and eigenvalues. slopes(history,
-// factors) is the derivative of sum_j factor_j samples_j with respect to every tensor, of which a component
-// beside the diagonal stands for two. Factors that are 0 cost little.
 
 using TensorHistory = std::span<const SymmetricTensor>;
 
+/// A measure of one history, to which it refers.
+class MeasuredHistory {
+ public:
+  virtual ~MeasuredHistory() = default;
+
+  /// The measure.
+  virtual double value() const = 0;
+
+  /// One value per sample. The largest is near the measure, by a few per cent at most, and depends smoothly
+  /// on the history, unlike maxima and eigenvalues.
+  virtual std::vector<double> samples() const = 0;
+
+  /// The derivative of sum_j factor_j samples_j with respect to every tensor, of which a component beside the
+  /// diagonal stands for two. Factors that are 0 cost little.
+  virtual std::vector<SymmetricTensor> slopes(std::span<const double> factors) const = 0;
+};
+
+// The measures of a history, of(history, least): samples, and a value, that are less than `least` > 0 may be
+// given as 0, which saves time.
+
 /// The largest eigenvalue of the strains; that of a sample as the norm of exponent 16 of the positive ones.
 struct LargestPrincipal {
-  double value(TensorHistory strains) const;
-  std::vector<double> samples(TensorHistory strains) const;
-  std::vector<SymmetricTensor> slopes(TensorHistory strains, std::span<const double> factors) const;
+  std::unique_ptr<const MeasuredHistory> of(TensorHistory strains, double least = 0) const;
 };
 
 /// sqrt(J2)_a + alpha max p of stresses [Pa] (B. Crossland, Proc. Int. Conf. Fatigue of Metals, 1956): the
@@ -30,9 +44,7 @@ struct LargestPrincipal {
 /// largest hydrostatic stress p = tr(sigma) / 3.
 struct Crossland {
   double pressure_factor;  ///< alpha
-  double value(TensorHistory stresses) const;
-  std::vector<double> samples(TensorHistory stresses) const;
-  std::vector<SymmetricTensor> slopes(TensorHistory stresses, std::span<const double> factors) const;
+  std::unique_ptr<const MeasuredHistory> of(TensorHistory stresses, double least = 0) const;
 };
 
 /// max (tau + alpha p) of stresses [Pa] (K. Dang Van, ASTM STP 1191, 1993): tau is the largest shear stress
@@ -40,9 +52,7 @@ struct Crossland {
 /// Hosford's of exponent 16, half of (sum of (e_i - e_k)^16 / 2)^(1/16) over the pairs of eigenvalues.
 struct DangVan {
   double pressure_factor;  ///< alpha
-  double value(TensorHistory stresses) const;
-  std::vector<double> samples(TensorHistory stresses) const;
-  std::vector<SymmetricTensor> slopes(TensorHistory stresses, std::span<const double> factors) const;
+  std::unique_ptr<const MeasuredHistory> of(TensorHistory stresses, double least = 0) const;
 };
 
 /// a / (1 - m / R_m) of stresses [Pa] (J. Goodman, 1899), and a where m < 0, with the von Mises stress a =
@@ -52,9 +62,7 @@ struct DangVan {
 /// all have the measure of a smooth maximum and minimum of the trace.
 struct Goodman {
   double ultimate_strength;  ///< R_m [Pa]
-  double value(TensorHistory stresses) const;
-  std::vector<double> samples(TensorHistory stresses) const;
-  std::vector<SymmetricTensor> slopes(TensorHistory stresses, std::span<const double> factors) const;
+  std::unique_ptr<const MeasuredHistory> of(TensorHistory stresses, double least = 0) const;
 };
 
 }  // namespace wheelwright

@@ -47,10 +47,12 @@ void IsotropicLaw<dim>::tangent(const StrainRows<dim>& strains, const TangentRow
 
 template <int dim>
 void IsotropicLaw<dim>::energy_density(const StrainRows<dim>& strains, std::span<double> densities) const {
+  const double lambda = lambda_, mu = mu_;
   for (size_t i = 0; i < densities.size(); ++i) {
-    const Voigt<dim> strain = at_point<dim>(strains, i), sigma = stress_at(strain);
-    densities[i] = 0;
-    for (int k = 0; k < n_strains<dim>; ++k) densities[i] += 0.5 * sigma[k] * strain[k];
+    double trace = 0, squares = 0;
+    for (int d = 0; d < dim; ++d) trace += strains[d][i];
+    for (int k = 0; k < n_strains<dim>; ++k) squares += (k < dim ? 1 : 0.5) * strains[k][i] * strains[k][i];
+    densities[i] = 0.5 * lambda * trace * trace + mu * squares;
   }
 }
 

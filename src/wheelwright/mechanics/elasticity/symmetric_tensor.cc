@@ -10,8 +10,29 @@
 
 namespace wheelwright {
 
+namespace {
+
+/// Whether the third axis is a principal one, as in the plane of a wheel.
+bool is_plane(const SymmetricTensor& tensor) { return tensor[3] == 0 && tensor[4] == 0; }
+
+struct InPlane {
+  double high, low;  ///< eigenvalues in the plane of the first two axes
+};
+InPlane in_plane(const SymmetricTensor& t) {
+  const double mean = 0.5 * (t[0] + t[1]), radius = std::hypot(0.5 * (t[0] - t[1]), t[5]);
+  return {mean + radius, mean - radius};
+}
+
+}  // namespace
+
 /// By the cosine of a third of an angle.
 std::array<double, 3> principal_values(const SymmetricTensor& tensor) {
+  if (is_plane(tensor)) {
+    const auto [high, low] = in_plane(tensor);
+    if (tensor[2] >= high) return {tensor[2], high, low};
+    if (tensor[2] <= low) return {high, low, tensor[2]};
+    return {high, tensor[2], low};
+  }
   const double mean = (tensor[0] + tensor[1] + tensor[2]) / 3;
   const double a = tensor[0] - mean, b = tensor[1] - mean, c = tensor[2] - mean;
   const auto [d, e, f] = std::array{tensor[3], tensor[4], tensor[5]};
@@ -25,6 +46,15 @@ std::array<double, 3> principal_values(const SymmetricTensor& tensor) {
 }
 
 std::array<std::array<double, 3>, 3> principal_axes(const SymmetricTensor& tensor) {
+  if (is_plane(tensor)) {
+    using Axis = std::array<double, 3>;
+    const double angle = 0.5 * std::atan2(2 * tensor[5], tensor[0] - tensor[1]);
+    const Axis high{std::cos(angle), std::sin(angle), 0}, low{-high[1], high[0], 0}, axial{0, 0, 1};
+    const auto values = in_plane(tensor);
+    if (tensor[2] >= values.high) return {axial, high, low};
+    if (tensor[2] <= values.low) return {high, low, axial};
+    return {high, axial, low};
+  }
   const auto [a, b, c, d, e, f] = tensor;
   double matrix[9] = {a, f, e, f, b, d, e, d, c}, values[3];
   LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', 3, matrix, 3, values);  // ascending

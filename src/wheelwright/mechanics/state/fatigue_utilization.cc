@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
-#include "wheelwright/mechanics/elasticity/fatigue_measures.h"
+#include "wheelwright/base/integer_power.h"
 
 namespace wheelwright {
 namespace {
@@ -82,55 +83,24 @@ std::array<SymmetricTensor, n_strains<dim>> unit_tensors(const MaterialLaw<dim>&
   return result;
 }
 
-/// Calls visit(measure, tensors, is_of_stress) with the measure and its history of stresses or strains.
-template <int dim, class Visit>
-void with_measure(const StrainsAtPoint<dim>& point, const FatigueStrength& strength, Visit visit) {
-  const History<dim> history(point);
+/// Whether a measure is one of strains, and not of stresses.
+bool is_of_strains(FatigueMeasure measure) { return measure == FatigueMeasure::principal_strain; }
+
+/// What a history of stresses or strains is measured by, for samples up to a least one.
+std::unique_ptr<const MeasuredHistory> measured(const FatigueStrength& strength, TensorHistory history,
+                                                double least) {
   switch (strength.measure) {
     case FatigueMeasure::crossland:
-      return visit(Crossland{strength.pressure_factor}, history.stresses(), true);
+      return Crossland{strength.pressure_factor}.of(history, least);
     case FatigueMeasure::dang_van:
-      return visit(DangVan{strength.pressure_factor}, history.stresses(), true);
+      return DangVan{strength.pressure_factor}.of(history, least);
     case FatigueMeasure::goodman:
-      return visit(Goodman{strength.ultimate_strength.value_or(INFINITY)}, history.stresses(), true);
+      return Goodman{strength.ultimate_strength.value_or(INFINITY)}.of(history, least);
     case FatigueMeasure::principal_strain:
-      return visit(LargestPrincipal(), history.strains(), false);
+      return LargestPrincipal().of(history, least);
     default:
-      return;
+      throw std::logic_error("not a measure of a history");
   }
-}
-
-/// Samples of the utilization, at least 0.
-template <int dim>
-void utilization_of_samples(const StrainsAtPoint<dim>& point, const FatigueStrength& strength,
-                            std::span<double> values) {
-  if (strength.measure == FatigueMeasure::strain_energy)
-    point.law.energy_density(point.strains, values);
-  else
-    with_measure(point, strength, [&](const auto& measure, const auto& tensors, bool) {
-      std::ranges::copy(measure.samples(tensors), values.begin());
-    });
-  for (double& value : values) value = std::max(0.0, value / strength.limit);
-}
-
-/// The derivative of sum_j factor_j u_j with respect to the strains, u the samples of the utilization.
-template <int dim>
-void set_slopes(const StrainsAtPoint<dim>& point, const FatigueStrength& strength,
-                std::vector<double> factors, const StressRows<dim>& slopes) {
-  for (double& factor : factors) factor /= strength.limit;
-  if (strength.measure == FatigueMeasure::strain_energy) {
-    point.law.stress(point.strains, slopes);
-    for (int k = 0; k < n_strains<dim>; ++k)
-      for (std::size_t j = 0; j < factors.size(); ++j) slopes[k][j] *= factors[j];
-    return;
-  }
-  with_measure(point, strength, [&](const auto& measure, const auto& tensors, bool is_of_stress) {
-    const auto by_tensor = measure.slopes(tensors, factors);
-    const auto units = unit_tensors(point.law, is_of_stress);
-    for (int k = 0; k < n_strains<dim>; ++k)
-      for (std::size_t j = 0; j < factors.size(); ++j)
-        slopes[k][j] = std::inner_product(by_tensor[j].begin(), by_tensor[j].end(), units[k].begin(), 0.0);
-  });
 }
 
 }  // namespace
@@ -142,46 +112,71 @@ bool has_fatigue_strength(const Materials<dim>& materials) {
 }
 
 template <int dim>
-double fatigue_utilization(const StrainsAtPoint<dim>& point) {
-  const FatigueStrength* strength = point.law.fatigue_strength();
-  if (!strength) return 0;
-  if (strength->measure == FatigueMeasure::strain_energy) {
-    std::vector<double> values(point.n_cases());
-    utilization_of_samples(point, *strength, values);
-    return std::ranges::max(values);
+PointUtilization<dim>::PointUtilization(const StrainsAtPoint<dim>& point, double least)
+    : point_(point), strength_(point.law.fatigue_strength()) {
+  if (!strength_) return;
+  if (strength_->measure == FatigueMeasure::strain_energy) {
+    energies_.resize(point.n_cases());
+    point.law.energy_density(point.strains, energies_);
+    return;
   }
-  double value = 0;
-  with_measure(point, *strength, [&](const auto& measure, const auto& tensors, bool) {
-    value = std::max(0.0, measure.value(tensors) / strength->limit);
-  });
-  return value;
+  const History<dim> history(point);
+  tensors_ = is_of_strains(strength_->measure) ? history.strains() : history.stresses();
+  measured_ = measured(*strength_, tensors_, least * strength_->limit);
+}
+
+template <int dim>
+double PointUtilization<dim>::value() const {
+  if (!strength_) return 0;
+  return std::max(0.0, measured_ ? measured_->value() : std::ranges::max(energies_)) / strength_->limit;
+}
+
+template <int dim>
+std::vector<double> PointUtilization<dim>::samples() const {
+  if (!strength_) return std::vector<double>(point_.n_cases(), 0.0);
+  std::vector<double> values = measured_ ? measured_->samples() : energies_;
+  const double by_limit = 1 / strength_->limit;
+  for (double& value : values) value = std::max(0.0, value * by_limit);
+  return values;
+}
+
+template <int dim>
+void PointUtilization<dim>::set_slopes(std::span<const double> factors, const StressRows<dim>& slopes) const {
+  for (const auto& row : slopes) std::ranges::fill(row, 0.0);
+  if (!strength_) return;
+  std::vector<double> by_limit;
+  for (const double factor : factors) by_limit.push_back(factor / strength_->limit);
+  if (!measured_) {
+    point_.law.stress(point_.strains, slopes);
+    for (int k = 0; k < n_strains<dim>; ++k)
+      for (std::size_t j = 0; j < by_limit.size(); ++j) slopes[k][j] *= by_limit[j];
+    return;
+  }
+  const auto by_tensor = measured_->slopes(by_limit);
+  const auto units = unit_tensors(point_.law, !is_of_strains(strength_->measure));
+  for (int k = 0; k < n_strains<dim>; ++k)
+    for (std::size_t j = 0; j < by_limit.size(); ++j)
+      slopes[k][j] = std::inner_product(by_tensor[j].begin(), by_tensor[j].end(), units[k].begin(), 0.0);
 }
 
 template <int dim>
 void UtilizationPower<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
-  std::ranges::fill(values, 0.0);
-  const FatigueStrength* strength = point.law.fatigue_strength();
-  if (!strength) return;
-  utilization_of_samples(point, *strength, values);
-  for (double& value : values) value = std::pow(value, exponent_);
+  std::ranges::transform(PointUtilization<dim>(point, least_).samples(), values.begin(),
+                         [&](double sample) { return integer_power(sample, exponent_); });
 }
 
 template <int dim>
 void UtilizationPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
                                    const StressRows<dim>& slopes) const {
-  for (const auto& row : slopes) std::ranges::fill(row, 0.0);
-  const FatigueStrength* strength = point.law.fatigue_strength();
-  if (!strength) return;
-  constexpr double negligible = 1e-16;  // of the largest share
-  std::vector<double> shares(point.n_cases());
-  utilization_of_samples(point, *strength, shares);
+  const PointUtilization<dim> utilization(point, least_);
+  std::vector<double> shares = utilization.samples();
+  if (std::ranges::max(shares) < least_) {
+    for (const auto& row : slopes) std::ranges::fill(row, 0.0);
+    return;
+  }
   for (int j = 0; j < point.n_cases(); ++j)
-    shares[j] = factors[j] * exponent_ * std::pow(shares[j], exponent_ - 1);
-  const auto size = [](double share) { return std::abs(share); };
-  const double least = negligible * size(std::ranges::max(shares, {}, size));
-  for (double& share : shares)
-    if (size(share) < least) share = 0;
-  set_slopes(point, *strength, std::move(shares), slopes);
+    shares[j] = shares[j] < least_ ? 0 : factors[j] * exponent_ * integer_power(shares[j], exponent_ - 1);
+  utilization.set_slopes(shares, slopes);
 }
 
 template <int dim>
@@ -191,7 +186,7 @@ bool UtilizationPower<dim>::covers(const PolarGrid<dim>& grid, int row) const {
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                      \
   template decltype(has_fatigue_strength<dim>) has_fatigue_strength<dim>; \
-  template decltype(fatigue_utilization<dim>) fatigue_utilization<dim>;   \
+  template class PointUtilization<dim>;                                   \
   template class UtilizationPower<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "wheelwright/mechanics/elasticity/fatigue_measures.h"
 #include "wheelwright/mechanics/elasticity/materials.h"
 #include "wheelwright/mechanics/state/functional_derivative.h"
 
@@ -13,16 +18,40 @@ namespace wheelwright {
 template <int dim>
 bool has_fatigue_strength(const Materials<dim>& materials);
 
-/// The utilization at a point.
+/// The utilization at a point, to whose strains it refers. Samples, and a value, that are less than `least`
+/// may be given as 0, which saves time.
 template <int dim>
-double fatigue_utilization(const StrainsAtPoint<dim>& point);
+class PointUtilization {
+ public:
+  explicit PointUtilization(const StrainsAtPoint<dim>& point, double least = 0);
 
-/// A power of the samples of the utilization, one per load case, the largest of which is the utilization.
+  double value() const;
+  /// One per load case: what makes up the largest of them, which is near the value, and depends smoothly on
+  /// the strains.
+  std::vector<double> samples() const;
+  /// The derivative of sum_j factor_j sample_j with respect to the strains. Factors that are 0 cost little.
+  void set_slopes(std::span<const double> factors, const StressRows<dim>& slopes) const;
+
+ private:
+  const StrainsAtPoint<dim>& point_;
+  const FatigueStrength* strength_;
+  std::vector<SymmetricTensor> tensors_;
+  std::unique_ptr<const MeasuredHistory> measured_;  ///< of the tensors; null of strain energies
+  std::vector<double> energies_;
+};
+
+/// A power of the samples of the utilization, one per load case. Samples far below a peak count as 0: their
+/// powers are negligible.
 template <int dim>
 class UtilizationPower : public MaterialDensity<dim> {
  public:
-  UtilizationPower(Materials<dim> materials, int exponent)
-      : materials_(std::move(materials)), exponent_(exponent) {}
+  UtilizationPower(Materials<dim> materials, int exponent, double peak = 0)
+      : materials_(std::move(materials)), exponent_(exponent), least_(least_that_counts(peak, exponent)) {}
+
+  /// Of a sample by the peak, so that its power is 1e-12 of that of the peak.
+  static double least_that_counts(double peak, int exponent) {
+    return peak * std::pow(1e-12, 1.0 / exponent);
+  }
 
   void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
   void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
@@ -33,6 +62,7 @@ class UtilizationPower : public MaterialDensity<dim> {
  private:
   Materials<dim> materials_;
   int exponent_;
+  double least_;
 };
 
 }  // namespace wheelwright

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -78,10 +79,9 @@ struct FunctionalDerivative {
   /// (position, ring column), as State::observations(); empty: zero.
   Matrix tread_loads = {};
 
-  /// The derivative with respect to integrals over the material, one factor per position. The densities must
-  /// outlive this.
+  /// The derivative with respect to integrals over the material, one factor per position.
   struct Integral {
-    const MaterialDensity<dim>* density;
+    std::shared_ptr<const MaterialDensity<dim>> density;
     std::vector<double> factors;
   };
   std::vector<Integral> integrals = {};

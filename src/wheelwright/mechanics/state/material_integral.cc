@@ -1,6 +1,6 @@
 #include "wheelwright/mechanics/state/material_integral.h"
 
-#include "wheelwright/mechanics/state/material_rule.h"
+#include "wheelwright/base/parallel.h"
 
 namespace wheelwright {
 
@@ -12,37 +12,60 @@ Matrix by_load_case(const Matrix& strains) {
 }
 
 template <int dim>
+StrainedCells<dim>::StrainedCells(const StateSolver<dim>& solver, const State<dim>& state,
+                                  const MaterialDensity<dim>& covered)
+    : model_(solver.model()),
+      displacement_(state.displacement()),
+      rule_(state.domain(), model_.degree + 2),
+      cells_(rule_.cells()) {
+  std::erase_if(cells_, [&](const auto& cell) {
+    return !covered.covers(model_.grid, model_.grid.cell_position(cell.cell)[0]);
+  });
+}
+
+template <int dim>
+StrainedCell<dim> StrainedCells<dim>::operator[](int k) const {
+  const auto& [cell, points] = cells_[k];
+  auto quadrature = weighted_points(model_.grid, model_.degree, cell, points);
+  Matrix strains = by_load_case(displacement_.strains(cell, quadrature.points));
+  return {cell,
+          std::move(quadrature.points),
+          std::move(quadrature.weights),
+          std::move(strains),
+          model_.grid.n_sectors,
+          model_.materials.in_row(model_.grid, model_.grid.cell_position(cell)[0])};
+}
+
+template <int dim>
 void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
                    const MaterialDensity<dim>& covered,
                    const std::function<void(const StrainedCell<dim>&)>& visit) {
-  const RollingModel<dim>& model = solver.model();
-  const Displacement<dim>& displacement = state.displacement();
-  MaterialRule<dim>(state.domain(), model.degree + 2)
-      .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
-        const auto place = model.grid.cell_position(cell);
-        if (!covered.covers(model.grid, place[0])) return;
-        auto quadrature = weighted_points(model.grid, model.degree, cell, points);
-        Matrix strains = by_load_case(displacement.strains(cell, quadrature.points));
-        visit({cell, std::move(quadrature.points), std::move(quadrature.weights), std::move(strains),
-               model.grid.n_sectors, model.materials.in_row(model.grid, place[0])});
-      });
+  const StrainedCells<dim> cells(solver, state, covered);
+  for (int k = 0; k < cells.size(); ++k) visit(cells[k]);
 }
 
 template <int dim>
 std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
                                       const MaterialDensity<dim>& density) {
+  const StrainedCells<dim> cells(solver, state, density);
   std::vector<double> integrals(state.positions().size(), 0.0);
-  for_each_cell<dim>(solver, state, density, [&](const StrainedCell<dim>& cell) {
-    Matrix values(cell.strains.rows(), cell.n_points());
-    for (int q = 0; q < cell.n_points(); ++q)
-      density.densities(cell.at(q), {values.column(q), static_cast<size_t>(values.rows())});
-    for (int j = 0; j < values.rows(); ++j)
-      for (int q = 0; q < cell.n_points(); ++q)
-        integrals[j / cell.n_sectors] += cell.weights[q] * values(j, q);
+  const auto of_cell = [&](int k) {
+    const StrainedCell<dim> cell = cells[k];
+    std::vector<double> sums(integrals.size(), 0.0), values(cell.strains.rows());
+    for (int q = 0; q < cell.n_points(); ++q) {
+      density.densities(cell.at(q), values);
+      for (size_t j = 0; j < values.size(); ++j) sums[j / cell.n_sectors] += cell.weights[q] * values[j];
+    }
+    return sums;
+  };
+  compute_in_parallel(cells.size(), of_cell, [&](int, const std::vector<double>& sums) {
+    for (size_t i = 0; i < sums.size(); ++i) integrals[i] += sums[i];
   });
   return integrals;
 }
 
+template class StrainedCells<2>;
+template class StrainedCells<3>;
 template decltype(for_each_cell<2>) for_each_cell<2>;
 template decltype(material_integral<2>) material_integral<2>;
 template decltype(for_each_cell<3>) for_each_cell<3>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheelwright/mechanics/state/material_rule.h"
 #include "wheelwright/mechanics/state/state.h"
 
 namespace wheelwright {
@@ -26,7 +27,26 @@ struct StrainedCell {
   }
 };
 
-/// Calls visit(cell) for every cell with material in the rows that the density covers.
+/// The cells with material in the rows that a density covers.
+template <int dim>
+class StrainedCells {
+ public:
+  StrainedCells(const StateSolver<dim>& solver, const State<dim>& state, const MaterialDensity<dim>& covered);
+  StrainedCells(const StrainedCells&) = delete;
+  StrainedCells& operator=(const StrainedCells&) = delete;
+
+  int size() const { return static_cast<int>(cells_.size()); }
+  /// One of them, computed for each call.
+  StrainedCell<dim> operator[](int k) const;
+
+ private:
+  const RollingModel<dim>& model_;
+  const Displacement<dim>& displacement_;
+  MaterialRule<dim> rule_;
+  std::vector<typename MaterialRule<dim>::Cell> cells_;
+};
+
+/// Calls visit(cell) for all of them in their order.
 template <int dim>
 void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
                    const MaterialDensity<dim>& covered,

@@ -16,6 +16,19 @@ class MaterialRule {
   MaterialRule(const CutDomain<dim>& domain, int n_points)
       : domain_(domain), full_(unit_cell_rule<dim>(n_points)) {}
 
+  struct Cell {
+    int cell;
+    std::span<const ReferencePoint<dim>> points;
+  };
+  /// The cells that contain material.
+  std::vector<Cell> cells() const {
+    std::vector<Cell> cells;
+    for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
+      cells.push_back({cell, points});
+    });
+    return cells;
+  }
+
   /// Calls visit(cell, points) for every cell that contains material.
   template <class Visit>
   void for_each_cell(Visit visit) const {

@@ -254,9 +254,9 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<di
     const auto& [line, least, most] = options_.design_lines[k];
     const double radius = radius_of_fixed_line(state_.shape.lattice.grid(), line);
     const int vector = static_cast<int>(2 + constraints_.size() + widths_.size() + k);
-    for (const auto& [sign, beyond] : {std::pair{1.0, radius - most}, {-1.0, least - radius}})
+    for (const auto& [sign, excess] : {std::pair{1.0, radius - most}, {-1.0, least - radius}})
       model.constraints.push_back(
-          {.vector = vector, .sign = sign, .gap = beyond, .is_equality = false, .is_in_merit = false});
+          {.vector = vector, .sign = sign, .gap = excess, .is_equality = false, .is_in_merit = false});
   }
   std::vector<std::vector<double>> at_boundary;
   for (const auto& deformation : span.deformations) at_boundary.push_back(speeds(motion, deformation));

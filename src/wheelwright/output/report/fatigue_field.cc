@@ -66,7 +66,7 @@ std::optional<RingField> fatigue_field(const StateSolver<dim>& solver, const Sta
       const StrainsAtPoint<dim> point{strain_columns<dim>(strains, n_strains<dim> * static_cast<int>(a)),
                                       grid.n_sectors, model.materials.in_row(grid, place[0])};
       of_layer.add(lattice.node_index(lattice.cell_node(place, static_cast<int>(a))),
-                   fatigue_utilization(point));
+                   PointUtilization<dim>(point).value());
     }
   }
   return RingField{1, means.repeated(grid.n_sectors), is_odd_row,

@@ -26,9 +26,12 @@ std::vector<Worst> worst_of_layers(const StateSolver<dim>& solver, const State<d
   std::vector<Worst> worst(materials.layers().size(), {0, {}, {}});
   for_each_cell<dim>(solver, state, UtilizationPower<dim>(materials, 2), [&](const StrainedCell<dim>& cell) {
     Worst& of_layer = worst[materials.layer_at(grid.middle_of_row(grid.cell_position(cell.cell)[0]))];
-    for (int q = 0; q < cell.n_points(); ++q)
-      if (const double found = fatigue_utilization(cell.at(q)); found > of_layer.utilization)
+    for (int q = 0; q < cell.n_points(); ++q) {
+      const StrainsAtPoint<dim> point = cell.at(q);
+      const double found = PointUtilization<dim>(point, of_layer.utilization).value();
+      if (found > of_layer.utilization)
         of_layer = {found, {}, place_in_body<dim>(grid, cell.cell, cell.points[q])};
+    }
   });
   for (std::size_t k = 0; k < worst.size(); ++k)
     worst[k].life = materials.layers()[k].law->fatigue_strength()->life(worst[k].utilization);

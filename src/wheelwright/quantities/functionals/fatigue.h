@@ -14,7 +14,7 @@ class FatigueUtilization : public Functional<dim> {
  public:
   explicit FatigueUtilization(const Materials<dim>& materials, const std::optional<PartOfRing>& part = {},
                               PeakNorm norm = {})
-      : norm_(norm), part_(part), power_(materials, norm.exponent, part) {}
+      : materials_(materials), norm_(norm), part_(part) {}
 
   std::string name() const override { return of_part("fatigue_utilization", part_); }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
@@ -25,8 +25,9 @@ class FatigueUtilization : public Functional<dim> {
  private:
   class PowerInPart : public UtilizationPower<dim> {
    public:
-    PowerInPart(const Materials<dim>& materials, int exponent, const std::optional<PartOfRing>& part)
-        : UtilizationPower<dim>(materials, exponent), part_(part) {}
+    PowerInPart(const FatigueUtilization& functional, double peak)
+        : UtilizationPower<dim>(functional.materials_, functional.norm_.exponent, peak),
+          part_(functional.part_) {}
     bool covers(const PolarGrid<dim>& grid, int row) const override {
       return UtilizationPower<dim>::covers(grid, row) && (!part_ || part_->has_row(grid, row));
     }
@@ -35,9 +36,9 @@ class FatigueUtilization : public Functional<dim> {
     std::optional<PartOfRing> part_;
   };
 
+  Materials<dim> materials_;
   PeakNorm norm_;
   std::optional<PartOfRing> part_;
-  PowerInPart power_;
 };
 
 }  // namespace wheelwright

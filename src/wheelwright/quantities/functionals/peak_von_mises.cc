@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/base/integer_power.h"
+#include "wheelwright/base/parallel.h"
 #include "wheelwright/mechanics/state/material_integral.h"
 
 namespace wheelwright {
 template <int dim>
 void VonMisesPower<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
   point.law.squared_von_mises(point.strains, values);
-  for (double& value : values) value = std::pow(value / (unit * unit), exponent_ / 2);
+  for (double& value : values) value = integer_power(value / (unit * unit), exponent_ / 2);
 }
 
 template <int dim>
@@ -20,7 +22,7 @@ void VonMisesPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<cons
   point.law.squared_von_mises_slope(point.strains, slopes);
   for (int j = 0; j < point.n_cases(); ++j) {
     const int half = exponent_ / 2;
-    const double slope = half * std::pow(squares[j] / (unit * unit), half - 1);
+    const double slope = half * integer_power(squares[j] / (unit * unit), half - 1);
     for (int k = 0; k < n_strains<dim>; ++k) slopes[k][j] *= factors[j] * slope / (unit * unit);
   }
 }
@@ -40,28 +42,40 @@ FunctionalValue<dim> PeakVonMises<dim>::evaluate(const StateSolver<dim>& solver,
                                                  const State<dim>& state, const Matrix&) const {
   constexpr double unit = VonMisesPower<dim>::unit;
   const int n = state.positions().size();
-  std::vector<double> integrals(n, 0.0), squared_peaks(n, 0.0);
-  for_each_cell<dim>(solver, state, power_, [&](const StrainedCell<dim>& cell) {
-    Matrix squares(cell.strains.rows(), cell.n_points());
-    for (int q = 0; q < cell.n_points(); ++q)
-      cell.law.squared_von_mises(cell.at(q).strains,
-                                 {squares.column(q), static_cast<size_t>(squares.rows())});
-    for (int j = 0; j < squares.rows(); ++j)
-      for (int q = 0; q < cell.n_points(); ++q) {
-        const int position = j / cell.n_sectors;
-        const double square = squares(j, q);
-        squared_peaks[position] = std::max(squared_peaks[position], square);
-        integrals[position] += cell.weights[q] * std::pow(square / (unit * unit), norm_.exponent / 2);
+  struct Sums {
+    std::vector<double> integrals, squared_peaks;
+  };
+  Sums all{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+  const StrainedCells<dim> cells(solver, state, *power_);
+  const auto of_cell = [&](int k) {
+    const StrainedCell<dim> cell = cells[k];
+    Sums sums{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+    std::vector<double> squares(cell.strains.rows());
+    for (int q = 0; q < cell.n_points(); ++q) {
+      cell.law.squared_von_mises(cell.at(q).strains, squares);
+      for (size_t j = 0; j < squares.size(); ++j) {
+        const size_t position = j / cell.n_sectors;
+        sums.squared_peaks[position] = std::max(sums.squared_peaks[position], squares[j]);
+        sums.integrals[position] +=
+            cell.weights[q] * integer_power(squares[j] / (unit * unit), norm_.exponent / 2);
       }
+    }
+    return sums;
+  };
+  compute_in_parallel(cells.size(), of_cell, [&](int, const Sums& sums) {
+    for (int i = 0; i < n; ++i) {
+      all.integrals[i] += sums.integrals[i];
+      all.squared_peaks[i] = std::max(all.squared_peaks[i], sums.squared_peaks[i]);
+    }
   });
   FunctionalValue<dim> value;
   std::vector<double> factors;
   for (int i = 0; i < n; ++i) {
-    const auto norm = norm_.value(std::sqrt(squared_peaks[i]), integrals[i], unit);
+    const auto norm = norm_.value(std::sqrt(all.squared_peaks[i]), all.integrals[i], unit);
     value.by_position.push_back(norm.peak());
-    factors.push_back(norm.peak() / (norm_.exponent * integrals[i]));
+    factors.push_back(norm.peak() / (norm_.exponent * all.integrals[i]));
   }
-  value.derivative.integrals.push_back({&power_, std::move(factors)});
+  value.derivative.integrals.push_back({power_, std::move(factors)});
   return value;
 }
 

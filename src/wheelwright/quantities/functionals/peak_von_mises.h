@@ -39,7 +39,10 @@ class PeakVonMises : public Functional<dim> {
  public:
   /// `from_tread`: the distance [m]; 0 counts all material.
   explicit PeakVonMises(double from_tread, PeakNorm norm = {}, const std::optional<PartOfRing>& part = {})
-      : from_tread_(from_tread), norm_(norm), part_(part), power_(norm.exponent, from_tread, part) {}
+      : from_tread_(from_tread),
+        norm_(norm),
+        part_(part),
+        power_(std::make_shared<const VonMisesPower<dim>>(norm.exponent, from_tread, part)) {}
 
   std::string name() const override;
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
@@ -50,7 +53,7 @@ class PeakVonMises : public Functional<dim> {
   double from_tread_;
   PeakNorm norm_;
   std::optional<PartOfRing> part_;
-  VonMisesPower<dim> power_;
+  std::shared_ptr<const VonMisesPower<dim>> power_;
 };
 
 /// Whether a radial row of cells lies at least this far inside the tread, up to rounding.

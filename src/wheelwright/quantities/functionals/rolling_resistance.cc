@@ -39,7 +39,8 @@ RollingResistance<dim>::RollingResistance(const RollingModel<dim>& model, std::o
   loss_factor_ = reference(model.materials, factors);
   for (std::size_t layer = 0; layer < factors.size(); ++layer)
     if (const double difference = factors[layer] - loss_factor_; difference != 0)
-      differences_.emplace_back(model, static_cast<int>(layer), difference);
+      differences_.push_back(
+          std::make_shared<const LossDensity<dim>>(model, static_cast<int>(layer), difference));
 }
 
 template <int dim>
@@ -54,10 +55,10 @@ FunctionalValue<dim> RollingResistance<dim>::evaluate(const StateSolver<dim>& so
     resistance =
         std::inner_product(energy.begin(), energy.end(), value.derivative.energy_by_harmonic.begin(), 0.0);
   }
-  for (const LossDensity<dim>& difference : differences_) {
-    const auto by_position = material_integral<dim>(solver, state, difference);
+  for (const auto& difference : differences_) {
+    const auto by_position = material_integral<dim>(solver, state, *difference);
     resistance = std::accumulate(by_position.begin(), by_position.end(), resistance);
-    value.derivative.integrals.push_back({&difference, std::vector<double>(by_position.size(), 1.0)});
+    value.derivative.integrals.push_back({difference, std::vector<double>(by_position.size(), 1.0)});
   }
   value.over_positions = resistance;
   return value;

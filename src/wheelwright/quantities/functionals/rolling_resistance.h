@@ -20,8 +20,9 @@ class RollingResistance : public Functional<dim> {
 
  private:
   std::optional<PartOfRing> part_;
-  double loss_factor_;                         ///< of all strain energy
-  std::vector<LossDensity<dim>> differences_;  ///< of the layers with another loss factor
+  double loss_factor_;  ///< of all strain energy
+  std::vector<std::shared_ptr<const LossDensity<dim>>>
+      differences_;  ///< of the layers with another loss factor
 };
 
 }  // namespace wheelwright
