@@ -264,6 +264,7 @@ TEST(Workers, CallEachOnceOnAnyNumberOfThreads) {
 TEST(NumberList, OfAllForms) {
   EXPECT_EQ(*parse_number_list("3,-1,2.5"), (std::vector<double>{3, -1, 2.5}));
   EXPECT_EQ(*parse_number_list("0:1:5"), (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+  EXPECT_EQ(*parse_number_list("0.6:0.9:4"), (std::vector<double>{0.6, 0.7, 0.8, 0.9}));
   const auto logarithmic = *parse_number_list("1:1000:4:log");
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(logarithmic[k], std::pow(10, k), 1e-9);
   for (const char* bad :
