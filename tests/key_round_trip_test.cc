@@ -28,7 +28,7 @@ using testing::TakesAnyCase;
 std::vector<double> other_numbers(const Range& range, double now, double factor) {
   std::vector<double> numbers;
   for (const double x : {1.1 * now / factor, 0.5 * now / factor, 1.01 * now / factor, 0.001, 0.01, 0.1, 0.25,
-                         0.5, 1.5, 30.0, 1000.0})
+                         0.5, 1.0, 1.5, 30.0, 1000.0})
     if (range.contains(x) && x * factor != now) numbers.push_back(x * factor);
   return numbers;
 }

@@ -95,6 +95,7 @@ struct MaterialCord {
 struct CaseLoad {
   std::string name = {};
   double weight = 1;                              ///< of its terms in the objective
+  std::optional<double> distance_share = {};      ///< of the distance, driven under it
   std::optional<double> force = {}, travel = {};  ///< at most one of them
   std::optional<double> horizontal_force = {}, torque = {};
   std::optional<std::array<double, 2>> body_force = {};

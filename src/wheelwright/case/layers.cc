@@ -100,6 +100,10 @@ std::optional<double> PlacedMaterial::fatigue_limit() const {
                     material);
 }
 
+std::optional<double> PlacedMaterial::fatigue_exponent() const {
+  return std::visit([](const auto& m) { return m.fatigue ? m.fatigue->exponent : std::nullopt; }, material);
+}
+
 double PlacedMaterial::least_compliance() const {
   return isotropic() ? 1 - 2 * isotropic()->plane_strain_equivalent().poissons_ratio
                      : orthotropic()->least_compliance();
@@ -256,6 +260,8 @@ bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part) {
 bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part) {
   return all_have(c, part, &PlacedMaterial::fatigue_limit);
 }
+
+bool has_fatigue_exponent(const Case& c) { return all_have(c, {}, &PlacedMaterial::fatigue_exponent); }
 
 PlacedMaterial tread_material(const Case& c) { return placed_materials(c).back(); }
 

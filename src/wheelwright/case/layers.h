@@ -28,6 +28,7 @@ struct PlacedMaterial {
   std::optional<double> density() const;        ///< [kg/m^3]
   std::optional<double> loss_factor() const;    ///< tan(delta)
   std::optional<double> fatigue_limit() const;  ///< FatigueStrength::limit
+  std::optional<double> fatigue_exponent() const;
   /// The least share of a unit compliance: near 0 elements lock. 1 - 2 nu of an isotropic material in plane
   /// strain.
   double least_compliance() const;
@@ -111,6 +112,7 @@ bool has_density(const Case& c, const std::optional<PartOfRing>& part = {});
 /// The same of the loss factor.
 bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part = {});
 bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part = {});
+bool has_fatigue_exponent(const Case& c);
 
 /// The material at the tread.
 PlacedMaterial tread_material(const Case& c);

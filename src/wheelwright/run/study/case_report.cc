@@ -284,6 +284,12 @@ std::string bounds_report(const Case& c) {
   return report;
 }
 
+std::string load_case_text(const CaseLoad& load_case) {
+  const auto& share = load_case.distance_share;
+  return fmt::format("{}, weight {:.6g}{}", load_case.name, load_case.weight,
+                     share ? fmt::format(", {:.6g} % of the distance", 100 * *share) : "");
+}
+
 }  // namespace
 
 std::string derived_report(const Case& c) {
@@ -295,9 +301,8 @@ std::string derived_report(const Case& c) {
   finest.grid.tread_levels = tread_levels(c);
   for (std::size_t k = 0; k < c.load.cases.size(); ++k) {
     const Case single = with_load_case(finest, static_cast<int>(k));
-    report +=
-        line("load case", fmt::format("{}, weight {:.6g}", c.load.cases[k].name, c.load.cases[k].weight)) +
-        load_report(single) + contact_report(single) + losses_report(single);
+    report += line("load case", load_case_text(c.load.cases[k])) + load_report(single) +
+              contact_report(single) + losses_report(single);
   }
   return report + material_report(c) + size_report(c) + bounds_report(c);
 }
