@@ -25,8 +25,8 @@ struct PlacedMaterial {
   double youngs_modulus() const;
   /// E* of Hertz's theory [Pa].
   double contact_modulus() const;
-  std::optional<double> density() const;        ///< [kg/m^3]
-  std::optional<double> loss_factor() const;    ///< tan(delta)
+  std::optional<double> density() const;  ///< [kg/m^3]
+  std::optional<LossFactor> loss_factor() const;
   std::optional<double> fatigue_limit() const;  ///< FatigueStrength::limit
   std::optional<double> fatigue_exponent() const;
   /// The least share of a unit compliance: near 0 elements lock. 1 - 2 nu of an isotropic material in plane
@@ -35,6 +35,7 @@ struct PlacedMaterial {
 
   CaseKey youngs_modulus_key() const;
   CaseKey poissons_ratio_key() const;  ///< that of radius and azimuth of an orthotropic material
+  CaseKey loss_factor_key() const;
 };
 
 using OrthotropicConstant = std::optional<double> OrthotropicConstants::*;

@@ -148,6 +148,20 @@ void check_speed(const SingleLoad& single, Conflicts& found) {
                                c.load.speed * std::sqrt(advised / strain))});
 }
 
+/// A loss factor over the frequency needs a speed; under load cases in which the wheel stands it is that of
+/// the lowest frequency.
+void check_frequencies(const Case& c, Conflicts& found) {
+  const auto loads = single_loads(c);
+  if (std::ranges::any_of(loads, [](const SingleLoad& single) { return single.c.load.speed > 0; })) return;
+  for (const PlacedMaterial& placed : placed_materials(c))
+    if (const auto factor = placed.loss_factor(); factor && !factor->table().empty()) {
+      found.push_back({{placed.loss_factor_key(), loads.front().key(&Load::speed)},
+                       "a loss factor over the frequency needs the speed of the wheel",
+                       "set load.speed, or one number for all frequencies"});
+      return;
+    }
+}
+
 /// Checks the list of load cases, and references to them.
 void check_names_of_load_cases(const Case& c, Conflicts& found) {
   const auto& cases = c.load.cases;
@@ -221,6 +235,7 @@ void load_conflicts(const Case& c, Conflicts& found) {
     check_loads(single_loads(c), found, check);
   check_names_of_load_cases(c, found);
   check_distance_shares(c, found);
+  check_frequencies(c, found);
 }
 
 void wall_conflicts(const Case& c, Conflicts& found) { check_loads(single_loads(c), found, check_walls); }
