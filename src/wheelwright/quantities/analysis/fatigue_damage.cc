@@ -11,8 +11,6 @@
 namespace wheelwright {
 namespace {
 
-using Worst = FatigueDamage::Worst;
-
 std::vector<double> utilizations_of(std::span<const UtilizedPoints> by_case, std::size_t point) {
   std::vector<double> result;
   for (const UtilizedPoints& points : by_case) result.push_back(points.utilizations[point]);
@@ -21,8 +19,8 @@ std::vector<double> utilizations_of(std::span<const UtilizedPoints> by_case, std
 
 }  // namespace
 
-Worst most_damaged(const FatigueStrength& strength, std::span<const UtilizedPoints> by_case,
-                   std::span<const double> shares) {
+FatigueDamage::Worst most_damaged(const FatigueStrength& strength, std::span<const UtilizedPoints> by_case,
+                                  std::span<const double> shares) {
   const auto& places = by_case.front().places;
   double most = 0;
   std::size_t where = 0;
@@ -31,8 +29,8 @@ Worst most_damaged(const FatigueStrength& strength, std::span<const UtilizedPoin
       most = damage;
       where = i;
     }
-  Worst worst{{equivalent_utilization(strength, most), 1 / most, {}},
-              std::vector<double>(shares.size(), 0.0)};
+  FatigueDamage::Worst worst{{equivalent_utilization(strength, most), 1 / most, {}},
+                             std::vector<double>(shares.size(), 0.0)};
   if (most == 0) return worst;
   worst.place = places[where];
   for (std::size_t k = 0; k < shares.size(); ++k)
@@ -75,13 +73,14 @@ Expected<FatigueDamage> sum_of_damages(const Materials<dim>& materials,
                                        std::span<const double> shares) {
   for (const auto& of_case : by_case)
     if (!of_case) return of_case.failure();
-  std::vector<Worst> of_layers;
+  std::vector<FatigueDamage::Worst> of_layers;
   for (std::size_t k = 0; k < materials.layers().size(); ++k) {
     std::vector<UtilizedPoints> of_layer;
     for (const auto& of_case : by_case) of_layer.push_back((*of_case)[k]);
     of_layers.push_back(most_damaged(*materials.layers()[k].law->fatigue_strength(), of_layer, shares));
   }
-  FatigueDamage result{*std::ranges::min_element(of_layers, {}, [](const Worst& w) { return *w.life; }), {}};
+  FatigueDamage result{
+      *std::ranges::min_element(of_layers, {}, [](const FatigueDamage::Worst& w) { return *w.life; }), {}};
   if (of_layers.size() > 1) result.by_layer = std::move(of_layers);
   return result;
 }
