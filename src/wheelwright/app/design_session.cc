@@ -56,7 +56,7 @@ std::string check_quantities(const std::string& text) {
 
 /// Why designs of a case are not ranked by a word that may be one of others.
 std::string fault_of_word(const Case& c, const std::string& word, const std::vector<RankedQuantity>& known) {
-  const auto needs = unmet_needs_of_ranked(c, word);
+  const auto needs = unmet_needs_of_ranked(c, quantity_in(word));
   if (!needs.empty()) return fmt::format("{}; set {}", needs.front().problem, needs.front().key.path());
   std::vector<std::string_view> words;
   for (const RankedQuantity& quantity : known) words.push_back(quantity.word);
