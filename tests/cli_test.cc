@@ -372,7 +372,7 @@ outer_radius_range = [0.25, 0.28]
 youngs_modulus = 9e8
 poissons_ratio = 0.3
 [grid]
-radial_cells = 8
+radial_cells = 15
 angular_cells = 128
 [optimizer]
 rim_band = 0.02

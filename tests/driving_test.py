@@ -214,11 +214,11 @@ class Driving(unittest.TestCase):
     def test_analyze_prints_the_same_pass_as_it_writes(self):
         ground = 'ground = "kerb"\nground_height = 0.02\nground_radius = 0.005\nground_place = 0.05\n'
         case, folder = self.write("kerb.toml", CASE.replace("[load]\n", f"[load]\n{ground}", 1)), self.folder / "pass"
-        told = run("analyze", case, "--positions", 2, "--pass", "-0.05,0.03,5", "--without-errors", "--json", "--output", folder)
+        told = run("analyze", case, "--positions", 2, "--pass=-0.02,0.03,5", "--without-errors", "--json", "--output", folder)
         analysis = json.loads(told.stdout)
         validator("analysis").validate(analysis)
         self.assertEqual(analysis, json.loads((folder / "analysis.json").read_text()))
-        self.assertEqual([place["moved_m"] for place in analysis["pass"]], [-0.05, 0.03, 5])
+        self.assertEqual([place["moved_m"] for place in analysis["pass"]], [-0.02, 0.03, 5])
         rows = [{"moved_m": place["moved_m"], "position": k, **numbers}
                 for place in analysis["pass"] for k, numbers in enumerate(place["positions"])]
         with open(folder / "pass.csv", encoding="utf-8") as file:

@@ -172,6 +172,15 @@ poissons_ratio = 0.45
 density = 1100
 )";
 
+const std::string grid_of_layers = R"(
+[grid]
+radial_cells = 16
+angular_cells = 192
+tread_levels = 0
+[optimizer]
+tread_band = 0.02
+)";
+
 TEST(GradientCheck, OfRadiiPassesWithFrictionSeveralLoadsAndBounds) {
   const auto checks = checked_radii<2>(case_of(R"(
 [wheel]
@@ -197,10 +206,10 @@ at_least = 1e6
 [[constraint]]
 quantity = "peak_von_mises"
 at_most = 1e9
-)" + layers + coarse),
+)" + layers + grid_of_layers),
                                        {"outer_radius of core", "inner_radius of tyre"});
-  expect_passed(checks, 2 * 5);
-  EXPECT_EQ(std::ranges::count_if(checks, &GradientCheck::is_smoothed), 2);
+  expect_passed(checks, 2 * 7);
+  EXPECT_EQ(std::ranges::count_if(checks, &GradientCheck::is_smoothed), 2 * 2);
 }
 
 TEST(GradientCheck, OfRadiiPassesInThreeDimensions) {
@@ -213,26 +222,33 @@ positions = 1
 lateral_force = 100
 [contact]
 friction = 0.5
+[[material.layer]]
+name = "core"
+outer_radius = 0.2571
+outer_radius_range = [0.25, 0.27]
+youngs_modulus = 9e8
+poissons_ratio = 0.3
 [[holes.tapered]]
 count = 16
-center_radius = 0.265
-profile = [[-0.06, 0.02], [0, 0.024], [0.06, 0.028]]
+center_radius = 0.26
+profile = [[-0.06, 0.016], [0, 0.02], [0.06, 0.024]]
 [grid]
 radial_cells = 7
-angular_cells = 96
+angular_cells = 64
 axial_cells = 2
 [optimizer]
-rim_band = 0.02
-tread_band = 0.04
-)" + layers),
-                                       {"outer_radius of core", "inner_radius of tyre"});
-  expect_passed(checks, 2 * 2);
+rim_band = 0.03
+tread_band = 0.05
+)"),
+                                       {"outer_radius of core"});
+  expect_passed(checks, 2);
 }
 
 /// Also where no hole can move: rubber on a core.
 TEST(GradientCheck, OfRadiiPassesWithoutHoles) {
-  expect_passed(checked_radii<2>(case_of(layers + coarse), {"outer_radius of core", "inner_radius of tyre"}),
-                2 * 2);
+  expect_passed(
+      checked_radii<2>(case_of(layers + grid_of_layers), {"outer_radius of core", "inner_radius of tyre"}),
+      2 * 2);
   EXPECT_TRUE(checked_radii<2>(case_of(slots_between_bands), {}).empty());
 }
 

@@ -38,6 +38,14 @@ double height_at(const std::vector<Vec<2>>& outline, double along) {
   return std::lerp(a[1], b[1], (along - a[0]) / (b[0] - a[0]));
 }
 
+/// The shortest one of a line between two places.
+double distance_from_axle(const Vec<2>& a, const Vec<2>& b) {
+  const Vec<2> along = b - a;
+  const double length = dot(along, along);
+  const double share = length > 0 ? std::clamp(-dot(a, along) / length, 0.0, 1.0) : 0;
+  return norm<2>(a + share * along);
+}
+
 TEST(ShownGround, IsNothingWhereItIsFlatBelowAnUprightWheelAndEmptyWhereThereIsNone) {
   EXPECT_FALSE(shown_ground(standing_on<2>(Ground())));
   EXPECT_FALSE(shown_ground(standing_on<3>(Ground())));
@@ -57,20 +65,19 @@ TEST(ShownGround, IsTheGroundOnWhichTheWheelStands) {
     const double height = axle_height(fields.lattice.grid(), ground);
     const auto outline = shown_ground(fields)->outline;
     EXPECT_TRUE(std::ranges::is_sorted(outline, {}, [](const Vec<2>& p) { return p[0]; }));
+    for (const auto& [along, up] : outline) EXPECT_NEAR(up, ground.height(along) - height, 1e-14);
     double clearance = 1;
-    for (const auto& [along, up] : outline) {
-      EXPECT_NEAR(up, ground.height(along) - height, 1e-14);
-      clearance = std::min(clearance, std::hypot(along, up) - radius);
-    }
-    EXPECT_NEAR(clearance, 0, 1e-6 * radius);
+    for (std::size_t k = 1; k < outline.size(); ++k)
+      clearance = std::min(clearance, distance_from_axle(outline[k - 1], outline[k]) - radius);
+    EXPECT_NEAR(clearance, 0, 3e-6 * radius);
     const double end = ground == drum ? 0.5 : ground == internal ? 0.4 : 4 * radius;
     EXPECT_NEAR(outline.front()[0], -end, 1e-12);
     EXPECT_NEAR(outline.back()[0], end, 1e-12);
     for (double along = -0.08; along < 0.08; along += 1e-4)
       EXPECT_NEAR(height_at(outline, along), ground.height(along) - height, 1e-3 * radius) << along;
-    if (ground.is_even())
-      for (double along = -0.08; along < 0.08; along += 1e-4)
-        EXPECT_NEAR(height_at(outline, along), ground.height(along) - height, 1e-6 * radius) << along;
+    if (!ground.is_even()) continue;
+    for (double along = -0.08; along < 0.08; along += 1e-4)
+      EXPECT_NEAR(height_at(outline, along), ground.height(along) - height, 1e-6 * radius) << along;
   }
 }
 

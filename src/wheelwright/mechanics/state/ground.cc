@@ -134,7 +134,7 @@ double Ground::height(double along) const {
     const double x = along - round.top[0], sign = round.hollow ? -1 : 1;
     if (std::abs(x) <= round.radius)
       result = std::max(
-          result, round.top[1] + sign * (std::sqrt(round.radius * round.radius - x * x) - round.radius));
+          result, round.top[1] + sign * (std::sqrt((round.radius - x) * (round.radius + x)) - round.radius));
   }
   return result;
 }
