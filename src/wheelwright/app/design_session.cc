@@ -59,6 +59,9 @@ std::string fault_of_word(const std::string& word, const std::vector<RankedQuant
   if (word == "mass") return "the mass needs the density of every material; use volume, or set density";
   if (word == "rolling_resistance")
     return "the rolling resistance needs the loss factor of every material; set loss_factor";
+  if (word == "peak_temperature")
+    return "the temperature needs load.speed, a section heat, and the loss factor and conductivity of every "
+           "material";
   std::vector<std::string_view> words;
   for (const RankedQuantity& quantity : known) words.push_back(quantity.word);
   return fmt::format("'{}' is none of {}", word, fmt::join(words, ", "));

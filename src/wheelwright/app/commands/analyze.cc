@@ -16,6 +16,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/ground_of.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/output/report/heat_report.h"
 #include "wheelwright/output/report/pass_report.h"
 #include "wheelwright/output/report/pressure_plot.h"
 #include "wheelwright/output/report/rolling_report.h"
@@ -37,7 +38,7 @@ constexpr const char* result_file = "analysis.json";
 constexpr std::string_view files_of_analysis[] = {
     "analysis.json",      "travel.svg",       "force.svg",    "peak_pressure.svg", "pressures.svg",
     "pressures.csv",      "pass.csv",         "loads.svg",    "mesh.svg",          "stress.svg",
-    "stress_contact.svg", "displacement.svg", "pressure.svg", "fatigue.svg"};
+    "stress_contact.svg", "displacement.svg", "pressure.svg", "fatigue.svg",       "temperature.svg"};
 
 /// Loads on the whole width [N]. The wheel's name replaces a missing title.
 template <int dim>
@@ -56,6 +57,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   report.losses = rolling_losses(solver, wheel.shape, solution);
   report.outer_radius = c.wheel.outer_radius;
   report.fatigue = fatigue_results(solver, wheel.shape, solution);
+  report.heat = heat_results(solver, wheel.shape, solution);
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
   report.under_loads = under_loads<dim>(solution, report.loads);
   return report;
@@ -67,9 +69,18 @@ Expected<FinerReport, std::string> finer_report(const Expected<SolvedFinerShape<
                                                 const std::vector<double>& loads) {
   if (!finer) return finer.failure();
   return FinerReport{rolling_analysis(*finer->solver, *finer->states),
-                     under_loads<dim>(*finer->states, loads), finer->refinement,
+                     under_loads<dim>(*finer->states, loads),
+                     finer->refinement,
                      rolling_losses<dim>(*finer->solver, finer->shape, *finer->states),
-                     fatigue_results<dim>(*finer->solver, finer->shape, *finer->states)};
+                     fatigue_results<dim>(*finer->solver, finer->shape, *finer->states),
+                     heat_results<dim>(*finer->solver, finer->shape, *finer->states)};
+}
+
+std::vector<std::string> warnings_of_heat(const RollingReport& report) {
+  if (!report.heat || !*report.heat) return {};
+  std::vector<std::string> layers;
+  for (const LayerResults& layer : report.analysis.layers) layers.push_back(layer.name);
+  return too_warm(**report.heat, layers);
 }
 
 void write_plots(const std::filesystem::path& folder, const RollingReport& report) {
@@ -200,6 +211,7 @@ class AnalyzeCommand : public Subcommand {
     const auto size = deformation_size<dim>(solver, shape, **solved, report.analysis.deformations);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       warn_about(wheel.name, warning);
+    for (const std::string& warning : warnings_of_heat(report)) warn_about(wheel.name, warning);
     if (output_) write(report, shape, solver, **solved);
     return exit_done;
   }

@@ -22,14 +22,18 @@ RankedQuantity ranked(const Quantity& quantity) {
 namespace {
 
 constexpr std::array names_of_ranked{
-    "stiffness",     "strain_energy",  "volume_fraction", "mass",      "run_out",           "force_variation",
-    "peak_pressure", "peak_von_mises", "largest_strain",  "roughness", "rolling_resistance"};
+    "stiffness",      "strain_energy",   "volume_fraction",    "mass",
+    "run_out",        "force_variation", "peak_pressure",      "peak_von_mises",
+    "largest_strain", "roughness",       "rolling_resistance", "peak_temperature"};
 
-/// Whether a case gives the constants of the materials that a quantity needs.
+/// Whether a case gives the constants of the materials, and the speed and cooling, that a quantity needs.
 bool has_what_it_needs(const Case& c, const Quantity& quantity) {
   return std::ranges::all_of(quantity->needs, [&](Input input) {
     return (input != Input::density || has_density(c, quantity->part)) &&
-           (input != Input::loss_factor || has_loss_factor(c, quantity->part));
+           (input != Input::loss_factor || has_loss_factor(c, quantity->part)) &&
+           (input != Input::all_loss_factors || has_loss_factor(c)) &&
+           (input != Input::conductivity || has_conductivity(c)) && (input != Input::cooling || cooling(c)) &&
+           (input != Input::speed || c.load.speed > 0);
   });
 }
 

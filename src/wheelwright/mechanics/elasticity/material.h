@@ -22,7 +22,9 @@ struct Material {
   /// tan(delta): the energy that a cycle of harmonic strain loses, over 2 pi times its elastic energy at the
   /// largest strain; for the rolling resistance.
   std::optional<double> loss_factor = {};
-  std::optional<FatigueStrength> fatigue = {};  ///< what it bears over many turns
+  std::optional<FatigueStrength> fatigue = {};     ///< what it bears over many turns
+  std::optional<double> conductivity = {};         ///< thermal [W/(m K)]; for temperatures
+  std::optional<double> maximum_temperature = {};  ///< up to which it may be used [deg C]
 
   /// The material that has the same in-plane stresses in plane strain: itself, or for plane stress E' = E (1
   /// + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).
@@ -34,7 +36,9 @@ struct Material {
             Plane::strain,
             density,
             loss_factor,
-            fatigue};
+            fatigue,
+            conductivity,
+            maximum_temperature};
   }
 
   /// Lame's parameters of the law sigma = lambda tr(eps) I + 2 mu eps in the model's dimension [Pa]. In plane

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "wheelwright/mechanics/state/material_integral.h"
 #include "wheelwright/mechanics/state/turn_harmonics.h"
 
 namespace wheelwright {
@@ -101,6 +100,26 @@ bool LossDensity<dim>::covers(const PolarGrid<dim>& grid, int row) const {
 }
 
 template <int dim>
+LossOfTurn<dim>::LossOfTurn(const RollingModel<dim>& model, double loss_factor) {
+  const TurnHarmonics turn(model.n_positions, model.grid.n_sectors);
+  const auto forces = forces_by_energy(model.grid, turn.n_harmonics(), loss_factor / model.n_positions);
+  waves_ = turn.waves();
+  for (int wave = 0; wave < turn.n_cases(); ++wave) factors_.push_back(forces[TurnHarmonics::harmonic(wave)]);
+}
+
+template <int dim>
+std::vector<double> LossOfTurn<dim>::densities(const StrainedCell<dim>& cell) const {
+  const Matrix amplitudes = product(waves_, Op::transpose, cell.strains, Op::none);
+  std::vector<double> densities;
+  for (int q = 0; q < cell.n_points(); ++q) {
+    const auto strains = strain_columns<dim>(amplitudes, n_strains<dim> * q);
+    const auto of_waves = energies<dim>(cell.law, strains, strains);
+    densities.push_back(std::inner_product(of_waves.begin(), of_waves.end(), factors_.begin(), 0.0));
+  }
+  return densities;
+}
+
+template <int dim>
 std::vector<std::vector<double>> resistance_of_layers(const StateSolver<dim>& solver,
                                                       const State<dim>& state) {
   const RollingModel<dim>& model = solver.model();
@@ -131,6 +150,7 @@ double resistance_beyond(std::span<const double> by_harmonic) {
   template decltype(has_loss_factors<dim>) has_loss_factors<dim>; \
   template decltype(forces_by_energy<dim>) forces_by_energy<dim>; \
   template class LossDensity<dim>;                                \
+  template class LossOfTurn<dim>;                                 \
   template decltype(resistance_of_layers<dim>) resistance_of_layers<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "wheelwright/mechanics/state/state.h"
+#include "wheelwright/mechanics/state/material_integral.h"
 
 namespace wheelwright {
 
@@ -38,6 +38,20 @@ class LossDensity : public MaterialDensity<dim> {
   Materials<dim> materials_;
   int layer_;
   Matrix filter_;  ///< over pairs of load cases: force by the energy of one strain in the stress of the other
+};
+
+/// The same in a layer of a given loss factor, summed over the load cases.
+template <int dim>
+class LossOfTurn {
+ public:
+  LossOfTurn(const RollingModel<dim>& model, double loss_factor);
+
+  /// At the points of a cell [N/m^3].
+  std::vector<double> densities(const StrainedCell<dim>& cell) const;
+
+ private:
+  Matrix waves_;                 ///< TurnHarmonics::waves()
+  std::vector<double> factors_;  ///< force by the energy of a wave
 };
 
 /// The force by layers of the model's materials, from the rim to the tread, and by harmonics of the turn, 0

@@ -64,7 +64,8 @@ std::optional<RingField> fatigue_field(const StateSolver<dim>& solver, const Sta
     const Matrix strains = by_load_case(state.displacement().strains(cell, nodes));
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const StrainsAtPoint<dim> point{strain_columns<dim>(strains, n_strains<dim> * static_cast<int>(a)),
-                                      grid.n_sectors, model.materials.in_row(grid, place[0])};
+                                      grid.n_sectors, model.materials.in_row(grid, place[0]), place,
+                                      nodes[a]};
       of_layer.add(lattice.node_index(lattice.cell_node(place, static_cast<int>(a))),
                    PointUtilization<dim>(point).value());
     }

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/output/report/heat_report.h"
 #include "wheelwright/output/report/linear_theory_json.h"
 #include "wheelwright/output/report/value_with_error.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
@@ -476,6 +477,21 @@ std::string fatigue_line(const RollingReport& report) {
   return line + "\n";
 }
 
+/// Null if they are not known.
+const HeatResults* heat(const std::optional<Expected<HeatResults>>& known) {
+  return known && *known ? &**known : nullptr;
+}
+
+HeatContext heat_context(const RollingReport& report) {
+  HeatContext context{
+      .layers = {}, .width_factor = forces(report), .dimension = report.dimension, .error = {}};
+  for (const LayerResults& layer : report.analysis.layers) context.layers.push_back(layer.name);
+  if (const HeatResults* on_finer = finer(report) ? heat(finer(report)->heat) : nullptr)
+    context.error = discretization_error(heat(report.heat)->peak.temperature, on_finer->peak.temperature,
+                                         finer(report)->refinement, Converges::as_an_extreme);
+  return context;
+}
+
 double mean_travel_under(const RollingReport& report, size_t load) {
   return travel_variation(*report.under_loads[load]).mean;
 }
@@ -668,6 +684,7 @@ std::string rolling_table(const RollingReport& report) {
   table += stress_line(report) + linear_theory_lines(report);
   if (losses(report.losses)) table += losses_line(report);
   if (fatigue(report.fatigue)) table += fatigue_line(report);
+  if (heat(report.heat)) table += heat_lines(*heat(report.heat), heat_context(report));
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   if (report.accurate) table += '\n' + accuracy_table(*report.accurate);
@@ -704,6 +721,8 @@ std::string rolling_json(const RollingReport& report) {
     json["missing"]["rolling_resistance"] = to_string(report.losses->failure());
   if (fatigue(report.fatigue)) json["fatigue"] = fatigue_json(report);
   if (report.fatigue && !*report.fatigue) json["missing"]["fatigue"] = to_string(report.fatigue->failure());
+  if (heat(report.heat)) json["heat"] = heat_json(*heat(report.heat), heat_context(report));
+  if (report.heat && !*report.heat) json["missing"]["heat"] = to_string(report.heat->failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
   if (report.accurate) json["accuracy"] = accuracy_json(*report.accurate);
   return json.dump(2) + '\n';

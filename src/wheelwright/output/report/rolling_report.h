@@ -7,6 +7,7 @@
 #include "wheelwright/output/report/accurate_numbers.h"
 #include "wheelwright/output/report/plot_svg.h"
 #include "wheelwright/quantities/analysis/fatigue_results.h"
+#include "wheelwright/quantities/analysis/heat_results.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 
@@ -19,6 +20,7 @@ struct FinerReport {
   double refinement;  ///< the factor by which its cells are smaller
   std::optional<Expected<RollingLosses>> losses = {};
   std::optional<Expected<FatigueResults>> fatigue = {};
+  std::optional<Expected<HeatResults>> heat = {};
 };
 
 /// The analysis of one shape. Forces are shown on the whole width.
@@ -35,6 +37,7 @@ struct RollingReport {
   std::optional<AccurateNumbers> accurate = {};          ///< if an accuracy was wanted
   std::optional<Expected<RollingLosses>> losses = {};    ///< if the loss factors are known
   std::optional<Expected<FatigueResults>> fatigue = {};  ///< if the fatigue strengths are known
+  std::optional<Expected<HeatResults>> heat = {};        ///< if temperatures are known
   double outer_radius = 0;                               ///< R_e, for lives as distances [m]
 };
 
