@@ -1,5 +1,7 @@
 #include "wheelwright/mechanics/heat/heat_source.h"
 
+#include <algorithm>
+
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/mechanics/state/material_integral.h"
 
@@ -69,8 +71,14 @@ void WeightedHeat<dim>::densities(const StrainsAtPoint<dim>& point, std::span<do
 template <int dim>
 void WeightedHeat<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
                                const StressRows<dim>& slopes) const {
-  losses_.slopes(point, factors, slopes);
-  const double weight = weight_at(point);
+  double weight = weight_at(point);
+  const double first = factors.front();
+  if (std::ranges::all_of(factors, [&](double factor) { return factor == first; })) {
+    losses_.slopes_of_sum(point, slopes);
+    weight *= first;
+  } else {
+    losses_.slopes(point, factors, slopes);
+  }
   for (const auto& component : slopes)
     for (double& slope : component) slope *= weight;
 }

@@ -95,6 +95,12 @@ void LossDensity<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const 
 }
 
 template <int dim>
+void LossDensity<dim>::slopes_of_sum(const StrainsAtPoint<dim>& point, const StressRows<dim>& slopes) const {
+  const Matrix filtered = combined<dim>(filter_, point.strains);
+  point.law.stress(strain_columns<dim>(filtered, 0), slopes);
+}
+
+template <int dim>
 bool LossDensity<dim>::covers(const PolarGrid<dim>& grid, int row) const {
   return materials_.layer_at(grid.middle_of_row(row)) == layer_;
 }

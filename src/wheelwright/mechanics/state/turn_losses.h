@@ -32,6 +32,8 @@ class LossDensity : public MaterialDensity<dim> {
   void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
   void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
               const StressRows<dim>& slopes) const override;
+  /// slopes() with all factors 1, in half of the time.
+  void slopes_of_sum(const StrainsAtPoint<dim>& point, const StressRows<dim>& slopes) const;
   bool covers(const PolarGrid<dim>& grid, int row) const override;
 
  private:

@@ -13,64 +13,74 @@
 
 namespace wheelwright {
 
-/// The power of the temperature over the coldest one that the norm integrates.
+/// What lies above the coldest temperature, f, and its power that the norm integrates.
 template <int dim>
-struct PeakTemperature<dim>::Power {
-  const TemperatureField<dim>& rise;
-  double least;  ///< rise of the coldest temperature over that of the air, at most 0
-  const std::optional<PartOfRing>& part;
-  int exponent;
+class PeakTemperature<dim>::Excess {
+ public:
+  /// `least`: the rise of the coldest temperature over that of the air, at most 0 [K].
+  Excess(const TemperatureField<dim>& rise, double least, const std::optional<PartOfRing>& part, int exponent)
+      : rise_(rise), least_(least), part_(part), exponent_(exponent) {}
 
-  /// Calls visit(shape functions, place of the cell, weight, f) at the points of the quadrature.
-  template <class Visit>
-  void for_each_point(const CutDomain<dim>& domain, Visit visit) const {
-    const PolarGrid<dim>& grid = domain.grid;
-    const int degree = rise.lattice.degree();
+  /// f at a point of the quadrature of a part of the ring.
+  struct Sample {
+    std::array<int, dim> cell;
+    Vec<dim> xi;
+    double weight, f;
+  };
+  std::vector<Sample> samples(const CutDomain<dim>& domain) const {
+    std::vector<Sample> result;
+    const int degree = rise_.lattice.degree();
     MaterialRule<dim>(domain, degree + 2)
         .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> rule) {
-          const auto place = grid.cell_position(cell);
-          if (part && !part->has_row(grid, place[0])) return;
-          const auto [points, weights] = weighted_points(grid, degree, cell, rule);
+          const auto place = domain.grid.cell_position(cell);
+          if (!counts(domain.grid, place)) return;
+          const auto [points, weights] = weighted_points(domain.grid, degree, cell, rule);
           for (std::size_t q = 0; q < points.size(); ++q)
-            visit(points[q], place, weights[q], rise.at(place, points[q]) - least);
+            result.push_back({place, points[q], weights[q], at(place, points[q])});
         });
+    return result;
   }
 
-  double integral(const CutDomain<dim>& domain) const {
+  /// int f^p.
+  double integral(const std::vector<Sample>& samples) const {
     double sum = 0;
-    for_each_point(domain, [&](const Vec<dim>&, const auto&, double weight, double f) {
-      sum += weight * std::pow(f, exponent);
-    });
+    for (const Sample& sample : samples) sum += sample.weight * std::pow(sample.f, exponent_);
     return sum;
   }
-  double peak(const CutDomain<dim>& domain) const {
-    double largest = 0;
-    for_each_point(domain,
-                   [&](const Vec<dim>&, const auto&, double, double f) { largest = std::max(largest, f); });
-    return largest;
-  }
   /// int f^(p - 1) N_a, for every node.
-  std::vector<double> slopes(const CutDomain<dim>& domain) const {
-    const Lattice<dim>& lattice = rise.lattice;
+  std::vector<double> slopes(const std::vector<Sample>& samples) const {
+    const Lattice<dim>& lattice = rise_.lattice;
     std::vector<double> slopes(lattice.n_nodes(), 0.0);
-    for_each_point(domain, [&](const Vec<dim>& xi, const auto& place, double weight, double f) {
+    for (const auto& [cell, xi, weight, f] : samples) {
       const ShapeFunctions<dim> shape(lattice.degree(), xi);
+      const double slope = weight * std::pow(f, exponent_ - 1);
       for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
-        slopes[lattice.node_index(lattice.cell_node(place, a))] +=
-            weight * std::pow(f, exponent - 1) * shape.value[a];
-    });
+        slopes[lattice.node_index(lattice.cell_node(cell, a))] += slope * shape.value[a];
+    }
     return slopes;
   }
   /// f^p at points of the moving boundary.
-  std::vector<double> at(const PolarGrid<dim>& grid, std::span<const SurfacePoint<dim>> points) const {
+  std::vector<double> powers(const PolarGrid<dim>& grid, std::span<const SurfacePoint<dim>> points) const {
     std::vector<double> powers;
     for (const SurfacePoint<dim>& point : points) {
       const auto place = grid.cell_position(point.cell);
-      const bool counts = !part || part->has_row(grid, place[0]);
-      powers.push_back(counts ? std::pow(rise.at(place, point.xi) - least, exponent) : 0);
+      powers.push_back(counts(grid, place) ? std::pow(at(place, point.xi), exponent_) : 0);
     }
     return powers;
   }
+
+ private:
+  bool counts(const PolarGrid<dim>& grid, const std::array<int, dim>& cell) const {
+    return !part_ || part_->has_row(grid, cell[0]);
+  }
+  double at(const std::array<int, dim>& cell, const Vec<dim>& xi) const {
+    return std::max(rise_.at(cell, xi) - least_, 0.0);
+  }
+
+  const TemperatureField<dim>& rise_;
+  double least_;
+  const std::optional<PartOfRing>& part_;
+  int exponent_;
 };
 
 template <int dim>
@@ -81,14 +91,17 @@ FunctionalValue<dim> PeakTemperature<dim>::evaluate(const StateSolver<dim>& solv
   FunctionalValue<dim> value{.over_positions = std::numeric_limits<double>::quiet_NaN()};
   const auto steady = steady_temperature(solver, state);
   if (!steady) return value;
-  const Power power{steady->rise, cooling.coldest() - cooling.ambient_temperature, part_, norm_.exponent};
-  const double integral = power.integral(state.domain());
-  const auto norm = norm_.value(power.peak(state.domain()), integral, 1);
+  const Excess excess(steady->rise, cooling.coldest() - cooling.ambient_temperature, part_, norm_.exponent);
+  const auto samples = excess.samples(state.domain());
+  double peak = 0;
+  for (const auto& sample : samples) peak = std::max(peak, sample.f);
+  const double integral = excess.integral(samples);
+  const auto norm = norm_.value(peak, integral, 1);
   value.over_positions = cooling.coldest() + norm.peak();
   if (integral == 0) return value;
 
   const double by_power = norm.peak() / (norm_.exponent * integral);
-  std::vector<double> adjoint_loads = power.slopes(state.domain());
+  std::vector<double> adjoint_loads = excess.slopes(samples);
   for (double& load : adjoint_loads) load *= norm_.exponent * by_power;
   auto solution = steady->solver.solve(adjoint_loads, std::vector<double>(adjoint_loads.size(), 0.0));
   if (!solution) {
@@ -98,7 +111,7 @@ FunctionalValue<dim> PeakTemperature<dim>::evaluate(const StateSolver<dim>& solv
   const auto adjoint = std::make_shared<const TemperatureField<dim>>(*std::move(solution));
 
   // The derivative of the Lagrangian J - a(theta, adjoint) + int q adjoint.
-  value.gradient_of_shape = power.at(model.grid, state.boundary());
+  value.gradient_of_shape = excess.powers(model.grid, state.boundary());
   const auto conduction =
       conduction_densities<dim>(model, psi, state.domain(), state.boundary(), steady->rise, *adjoint);
   for (std::size_t q = 0; q < conduction.size(); ++q)
@@ -108,7 +121,7 @@ FunctionalValue<dim> PeakTemperature<dim>::evaluate(const StateSolver<dim>& solv
       value.edge_gradient_of_shape.push_back(-density);
   value.by_radius_of_shape = by_radii<dim>(model, state.domain(), [&](const CutDomain<dim>& domain) {
     const std::vector<double> taken = Conduction<dim>(model, domain).times(steady->rise.values);
-    return by_power * power.integral(domain) -
+    return by_power * excess.integral(excess.samples(domain)) -
            std::inner_product(taken.begin(), taken.end(), adjoint->values.begin(), 0.0);
   });
   const auto& layers = model.materials.layers();

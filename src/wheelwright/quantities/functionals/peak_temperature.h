@@ -24,7 +24,7 @@ class PeakTemperature : public Functional<dim> {
   bool is_mirror_symmetric(MirrorPlane plane) const override { return plane == MirrorPlane::width; }
 
  private:
-  struct Power;
+  class Excess;
 
   std::optional<PartOfRing> part_;
   PeakNorm norm_;
