@@ -295,7 +295,7 @@ TEST(Conduction, InThePlaneIsThatOfASlice) {
   const auto run = []<int dim>(RollingModel<dim> model, const LevelSet<dim>& psi) {
     model.materials = conducting(0.3);
     model.cooling = Cooling{20, 32, 25, 10, 0};
-    const auto domain = cells_of(psi);
+    const auto domain = cells_of(psi, 10);
     const std::vector<double> at_rim(Lattice<dim>(model.grid, 2).n_nodes(), 12.0);
     return solved<dim>(
         model, domain,

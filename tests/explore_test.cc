@@ -139,6 +139,26 @@ TEST(Starts, OfACaseWhoseVolumeIsFreeAreValid) {
   expect_valid_starts(case_of(usual_wheel + min_mass), {0.66}, 1, 10);
 }
 
+// What a turn costs depends on the number of load positions around the wheel, not in a sector.
+TEST(Starts, OfLossyWheelsHaveAsManyLoadPositionsAroundThem) {
+  Case c = case_of(usual_wheel);
+  int n_changed = 0;
+  for (int number = 2; number < 12; ++number) {
+    c.material.loss_factor.reset();
+    const auto elastic = draw_start(c, {0.66}, 1, number).start;
+    c.material.loss_factor = 0.1;
+    const auto lossy = draw_start(c, {0.66}, 1, number).start;
+    ASSERT_EQ(elastic.has_value(), lossy.has_value());
+    if (!lossy) continue;
+    EXPECT_EQ(elastic->source.load.positions, c.load.positions);
+    const int sectors = lossy->source.wheel.sectors, around = total_load_positions(lossy->source);
+    EXPECT_GE(around, total_load_positions(c));
+    EXPECT_LT(around, total_load_positions(c) + sectors);
+    n_changed += sectors != c.wheel.sectors;
+  }
+  EXPECT_GT(n_changed, 3);
+}
+
 TEST(Starts, CanBeHalvedAsOftenAsTheCoarseGridsNeed) {
   expect_valid_starts(case_of(usual_wheel + "[optimizer]\ncoarse_levels = 2\n"), {0.66}, 1, 10);
 }
@@ -244,6 +264,7 @@ TEST(Workers, CallEachOnceOnAnyNumberOfThreads) {
 TEST(NumberList, OfAllForms) {
   EXPECT_EQ(*parse_number_list("3,-1,2.5"), (std::vector<double>{3, -1, 2.5}));
   EXPECT_EQ(*parse_number_list("0:1:5"), (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+  EXPECT_EQ(*parse_number_list("0.6:0.9:4"), (std::vector<double>{0.6, 0.7, 0.8, 0.9}));
   const auto logarithmic = *parse_number_list("1:1000:4:log");
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(logarithmic[k], std::pow(10, k), 1e-9);
   for (const char* bad :

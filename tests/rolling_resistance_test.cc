@@ -10,6 +10,7 @@
 #include <complex>
 #include <numbers>
 #include <numeric>
+#include <random>
 
 #include "tests/support.h"
 #include "wheelwright/base/periodic.h"
@@ -95,6 +96,34 @@ ShapeFunction<2> function(std::string name, const RollingModel<2>& model,
 
 WeightedFunctional<2> coefficient(const StateSolver<2>& solver) {
   return *functional_of<2>(built_in("rolling_resistance_coefficient"), Over::mean, {solver});
+}
+
+// With a factor of its own for every load case.
+TEST(LossDensity, HasTheSlopesOfItsDifferences) {
+  auto model = small_model();
+  model.materials = lossy(0.2, Plane::stress);
+  const LossDensity<2> density(model, 0, 0.2);
+  const int n = model.n_positions * model.grid.n_sectors;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Matrix strains(n, 3), direction(n, 3), slopes(n, 3);
+  for (Matrix* each : {&strains, &direction})
+    for (double& entry : each->entries()) entry = normal(random);
+  std::vector<double> factors(n), values(n);
+  for (double& factor : factors) factor = normal(random);
+  const MaterialLaw<2>& law = *model.materials.layers().front().law;
+  const auto at = [&](double h) {
+    Matrix moved = strains;
+    for (std::size_t k = 0; k < moved.entries().size(); ++k) moved.data()[k] += h * direction.data()[k];
+    density.densities({strain_columns<2>(moved, 0), model.grid.n_sectors, law}, values);
+    return std::inner_product(values.begin(), values.end(), factors.begin(), 0.0);
+  };
+  density.slopes({strain_columns<2>(strains, 0), model.grid.n_sectors, law}, factors,
+                 stress_columns<2>(slopes, 0));
+  const double slope =
+      std::inner_product(slopes.entries().begin(), slopes.entries().end(), direction.entries().begin(), 0.0);
+  // The density is quadratic: its central difference is exact.
+  EXPECT_NEAR((at(1) - at(-1)) / 2, slope, 1e-10 * std::abs(slope));
 }
 
 // Of the load cases in their own order, a wave of a harmonic has no other harmonics.

@@ -55,13 +55,9 @@ std::string check_quantities(const std::string& text) {
 }
 
 /// Why designs of a case are not ranked by a word that may be one of others.
-std::string fault_of_word(const std::string& word, const std::vector<RankedQuantity>& known) {
-  if (word == "mass") return "the mass needs the density of every material; use volume, or set density";
-  if (word == "rolling_resistance")
-    return "the rolling resistance needs the loss factor of every material; set loss_factor";
-  if (word == "peak_temperature")
-    return "the temperature needs load.speed, a section heat, and the loss factor and conductivity of every "
-           "material";
+std::string fault_of_word(const Case& c, const std::string& word, const std::vector<RankedQuantity>& known) {
+  const auto needs = unmet_needs_of_ranked(c, quantity_in(word));
+  if (!needs.empty()) return fmt::format("{}; set {}", needs.front().problem, needs.front().key.path());
   std::vector<std::string_view> words;
   for (const RankedQuantity& quantity : known) words.push_back(quantity.word);
   return fmt::format("'{}' is none of {}", word, fmt::join(words, ", "));
@@ -103,7 +99,7 @@ Expected<std::vector<RankedQuantity>, std::string> DesignOptions::chosen_quantit
   if (quantities) {
     for (const std::string& word : words(*quantities)) {
       const auto found = of_word(word);
-      if (found == known.end()) return fault_of_word(word, known);
+      if (found == known.end()) return fault_of_word(c, word, known);
       chosen.push_back(*found);
     }
     return chosen;

@@ -1,5 +1,7 @@
 #include "wheelwright/app/number_list.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -22,6 +24,13 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text, char sep
   }
 }
 
+/// Without the rounding errors of a step, as in 0.1 + 2 * 0.1.
+double to_twelve_digits(double x) {
+  const std::string text = fmt::format("{:.12g}", x);
+  std::from_chars(text.data(), text.data() + text.size(), x);
+  return x;
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> parse_number_list(std::string_view text) {
@@ -38,7 +47,7 @@ std::optional<std::vector<double>> parse_number_list(std::string_view text) {
     const double share = k / (n - 1);
     numbers.push_back(k == n - 1 ? last
                       : is_log   ? first * std::pow(last / first, share)
-                                 : first + share * (last - first));
+                                 : to_twelve_digits(first + share * (last - first)));
   }
   return numbers;
 }

@@ -35,24 +35,34 @@ bool has(const Case& c, Input input, const std::optional<PartOfRing>& part) {
   return true;
 }
 
-Need need(const SingleLoad& single, Input input) {
+/// Of a constant of the materials, or of the cooling; nothing for other inputs.
+std::optional<Need> need_of_materials(Input input) {
   switch (input) {
     case Input::density:
-      return {key_of(&Material::density), "the mass needs the density of every material"};
+      return Need{key_of(&Material::density), "the mass needs the density of every material"};
     case Input::loss_factor:
-      return {key_of(&Material::loss_factor),
-              "the rolling resistance needs the loss factor of every material, 0 for one without losses"};
+      return Need{key_of(&Material::loss_factor),
+                  "the rolling resistance needs the loss factor of every material, 0 for one without losses"};
     case Input::fatigue_limit:
-      return {key_of(&RingMaterial::fatigue_measure),
-              "fatigue needs the measure and the limit of every material"};
+      return Need{key_of(&RingMaterial::fatigue_measure),
+                  "fatigue needs the measure and the limit of every material"};
     case Input::all_loss_factors:
-      return {key_of(&Material::loss_factor),
-              "the temperature needs the loss factor of every material, 0 for one without losses"};
+      return Need{key_of(&Material::loss_factor),
+                  "the temperature needs the loss factor of every material, 0 for one without losses"};
     case Input::conductivity:
-      return {key_of(&Material::conductivity), "the temperature needs the conductivity of every material"};
+      return Need{key_of(&Material::conductivity),
+                  "the temperature needs the conductivity of every material"};
     case Input::cooling:
-      return {key_of(&Heat::convection),
-              "the temperature needs a convection or a heat.rim_temperature that takes the heat"};
+      return Need{key_of(&Heat::convection),
+                  "the temperature needs a convection or a heat.rim_temperature that takes the heat"};
+    default:
+      return {};
+  }
+}
+
+Need need(const SingleLoad& single, Input input) {
+  if (const auto of_materials = need_of_materials(input)) return *of_materials;
+  switch (input) {
     case Input::speed:
       return {single.key(&Load::speed), "how warm the wheel gets needs its speed, more than 0"};
     case Input::load:
@@ -67,8 +77,9 @@ Need need(const SingleLoad& single, Input input) {
       return {single.key(&Load::torque), "without a torque the rim does not turn"};
     case Input::several_positions:
       return {single.key(&Load::positions), "it compares load positions, and there is only one"};
+    default:
+      return {{}, ""};
   }
-  return {{}, ""};
 }
 
 /// Without the input.
@@ -118,6 +129,14 @@ std::vector<Need> unmet_needs(const SingleLoad& single, const Quantity& quantity
     needs.push_back({key_of(&Wheel::dimension), "it is computed only in the other dimension"});
   for (const Input input : quantity->needs)
     if (!has(single.c, input, quantity->part)) needs.push_back(need(single, input));
+  return needs;
+}
+
+std::vector<Need> unmet_needs_of_materials(const Case& c, const Quantity& quantity) {
+  std::vector<Need> needs;
+  for (const Input input : quantity->needs)
+    if (const auto need = need_of_materials(input); need && !has(c, input, quantity->part))
+      needs.push_back(*need);
   return needs;
 }
 

@@ -22,20 +22,9 @@ RankedQuantity ranked(const Quantity& quantity) {
 namespace {
 
 constexpr std::array names_of_ranked{
-    "stiffness",      "strain_energy",   "volume_fraction",    "mass",
-    "run_out",        "force_variation", "peak_pressure",      "peak_von_mises",
-    "largest_strain", "roughness",       "rolling_resistance", "peak_temperature"};
-
-/// Whether a case gives the constants of the materials, and the speed and cooling, that a quantity needs.
-bool has_what_it_needs(const Case& c, const Quantity& quantity) {
-  return std::ranges::all_of(quantity->needs, [&](Input input) {
-    return (input != Input::density || has_density(c, quantity->part)) &&
-           (input != Input::loss_factor || has_loss_factor(c, quantity->part)) &&
-           (input != Input::all_loss_factors || has_loss_factor(c)) &&
-           (input != Input::conductivity || has_conductivity(c)) && (input != Input::cooling || cooling(c)) &&
-           (input != Input::speed || c.load.speed > 0);
-  });
-}
+    "stiffness",          "strain_energy",       "volume_fraction", "mass",           "run_out",
+    "force_variation",    "peak_pressure",       "peak_von_mises",  "largest_strain", "roughness",
+    "rolling_resistance", "fatigue_utilization", "peak_temperature"};
 
 }  // namespace
 
@@ -51,7 +40,7 @@ const std::vector<RankedQuantity>& ranked_quantities() {
 std::vector<RankedQuantity> ranked_quantities(const Case& c) {
   std::vector<RankedQuantity> quantities;
   const auto add = [&](const Quantity& quantity) {
-    if (has_what_it_needs(c, quantity)) quantities.push_back(ranked(quantity));
+    if (unmet_needs_of_materials(c, quantity).empty()) quantities.push_back(ranked(quantity));
   };
   for (const char* name : names_of_ranked) add(built_in(name));
   for (const std::string& layer : names_of_layers(c))
@@ -59,6 +48,12 @@ std::vector<RankedQuantity> ranked_quantities(const Case& c) {
       if (built_in(name)->has_parts) add(in_layer(c, built_in(name), layer));
   for (const Quantity& own : c.vocabulary.quantities.own()) add(own);
   return quantities;
+}
+
+std::vector<Need> unmet_needs_of_ranked(const Case& c, std::string_view word) {
+  for (const char* name : names_of_ranked)
+    if (ranked(built_in(name)).word == word) return unmet_needs_of_materials(c, built_in(name));
+  return {};
 }
 
 const RankedQuantity* find_quantity(std::string_view word) {

@@ -7,6 +7,7 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/case/case.h"
+#include "wheelwright/case/quantity_needs.h"
 
 namespace wheelwright {
 
@@ -26,9 +27,12 @@ RankedQuantity ranked(const Quantity& quantity);
 /// All built-in ones.
 const std::vector<RankedQuantity>& ranked_quantities();
 
-/// Those that the designs of a case have: without the mass if it is not known, and with those of its layers
-/// and of its program.
+/// Those that the designs of a case have: without those that need constants of materials which the case does
+/// not give, and with those of its layers and of its program.
 std::vector<RankedQuantity> ranked_quantities(const Case& c);
+
+/// The constants of materials that a case does not give and the built-in one with that word needs.
+std::vector<Need> unmet_needs_of_ranked(const Case& c, std::string_view word);
 
 /// The built-in one with that word or name, or null.
 const RankedQuantity* find_quantity(std::string_view word);

@@ -9,6 +9,7 @@
 
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/design/starts/draft.h"
@@ -65,6 +66,13 @@ int angular_cells(const Case& c, int sectors) {
   return unit * std::max(1, static_cast<int>(std::lround(double(c.grid.angular_cells) / unit)));
 }
 
+/// Load positions per sector. What a turn costs and wears depends on those around the wheel: then they are at
+/// least as many as the case has.
+int positions(const Case& c, int sectors) {
+  const bool has_history = has_loss_factor(c) || has_fatigue_limit(c);
+  return has_history ? (total_load_positions(c) + sectors - 1) / sectors : c.load.positions;
+}
+
 /// The case with a draft of this size instead of its holes and shapes.
 Case drawn(const Case& c, const StartRange& range, const Draft& draft, double size) {
   Case result = c;
@@ -75,6 +83,7 @@ Case drawn(const Case& c, const StartRange& range, const Draft& draft, double si
   if (holds_volume(c)) result.volume.target = range.volume;
   result.wheel.sectors = draft.sectors;
   result.grid.angular_cells = angular_cells(c, draft.sectors);
+  result.load.positions = positions(c, draft.sectors);
   draft.draw(result, size);
   return result;
 }

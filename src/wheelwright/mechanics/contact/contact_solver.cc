@@ -191,6 +191,20 @@ std::optional<double> pressing_force(const ReducedContact<dim>& contact) {
   return {};
 }
 
+/// The limit of friction where the contact that slides everywhere has no solution: an estimate, if the loads
+/// exceed it so far that searching for a state that holds would be in vain.
+template <int dim>
+std::optional<FrictionLimit> far_beyond_friction(const ReducedContact<dim>& contact,
+                                                 const Interrupt& interrupt) {
+  constexpr double far = 10;
+  const ReducedContact<dim> smooth = held_along_ground(contact.sliding_along({}));
+  const auto end =
+      newton(smooth, touching(smooth, undeformed_start(smooth)), Cycling::change_fewer, interrupt);
+  if (!end.converged) return {};
+  const FrictionLimit limit = smooth_limit(contact, smooth.state(end.x, end.iterations));
+  return limit.needed > far * limit.available ? std::optional(limit) : std::nullopt;
+}
+
 /// The failure if no solution was found.
 template <int dim>
 ContactFailure failure_of(const ReducedContact<dim>& contact, const NewtonEnd<dim>& end,
@@ -229,6 +243,7 @@ Expected<ContactState<dim>, ContactFailure> solve_contact(const ReducedContact<d
   std::optional<FrictionLimit> limit;
   if (!end.converged && contact.has_friction() && !interrupt.requested()) {
     limit = friction_limit(contact, starts.back(), interrupt);
+    if (!limit) limit = far_beyond_friction(contact, interrupt);
     if (!limit || !limit->is_exceeded()) end = solve_with_friction<dim>(contact, starts, attempts, interrupt);
   }
   if (end.converged) return contact.state(end.x, end.iterations);

@@ -113,7 +113,19 @@ std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>& contact,
                        .normal_force = 0.5 * (pushed->normal_force + pulled->normal_force)};
 }
 
+template <int dim>
+FrictionLimit smooth_limit(const ReducedContact<dim>& contact, const ContactState<dim>& smooth) {
+  double normal_force = 0;
+  for (int i = 0; i < contact.n_points(); ++i)
+    normal_force -= contact.points()[i].weight * smooth.traction[i][0];
+  return {.needed = force_along_ground(contact),
+          .available = contact.friction() * normal_force,
+          .normal_force = normal_force};
+}
+
 template decltype(force_along_ground<2>) force_along_ground<2>;
+template decltype(smooth_limit<2>) smooth_limit<2>;
+template decltype(smooth_limit<3>) smooth_limit<3>;
 template decltype(held_along_ground<2>) held_along_ground<2>;
 template decltype(friction_limit<2>) friction_limit<2>;
 template decltype(force_along_ground<3>) force_along_ground<3>;

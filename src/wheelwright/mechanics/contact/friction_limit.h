@@ -36,4 +36,9 @@ template <int dim>
 std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>& contact,
                                             const ContactUnknowns<dim>& start, const Interrupt& interrupt);
 
+/// The same by the contact without friction, the rim held along the ground: its normal force bears the
+/// friction. An estimate, without the moment of the pressure.
+template <int dim>
+FrictionLimit smooth_limit(const ReducedContact<dim>& contact, const ContactState<dim>& smooth);
+
 }  // namespace wheelwright

@@ -80,18 +80,6 @@ Expected<ContactState<dim>, ContactFailure> without_friction(const ReducedContac
   return solve_contact<dim>(smooth, std::span(&start, 1));
 }
 
-/// The friction that the loads along the ground need, and what can be held under the normal force of a
-/// contact without friction.
-template <int dim>
-FrictionLimit smooth_limit(const ReducedContact<dim>& contact, const ContactState<dim>& smooth) {
-  double normal_force = 0;
-  for (int i = 0; i < contact.n_points(); ++i)
-    normal_force -= contact.points()[i].weight * smooth.traction[i][0];
-  return {.needed = force_along_ground(contact),
-          .available = contact.friction() * normal_force,
-          .normal_force = normal_force};
-}
-
 /// Whether gamma is so large that, with several points per cell, the contact is numerically overdetermined.
 template <int dim>
 std::optional<Failure> overdetermined(const RollingModel<dim>& model) {
