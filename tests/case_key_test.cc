@@ -44,18 +44,22 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
   const auto& [dimension, inner, outer, width, sectors, sides] = w;
   expect_keys(w, dimension, inner, outer, width, sectors, sides);
   const RingMaterial m;
-  const auto& [modulus, ratio, plane, density, loss, strength] = static_cast<const Material&>(m);
+  const auto& [modulus, ratio, plane, density, loss, strength, conductivity, warmest] =
+      static_cast<const Material&>(m);
   const auto& [measure, limit, strain, cycles, exponent, pressure_factor, ultimate] =
       static_cast<const FatigueConstants&>(m);
   const auto& [e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz] =
       static_cast<const OrthotropicConstants&>(m);
-  expect_keys(m, modulus, ratio, plane, density, loss, measure, limit, strain, cycles, exponent,
-              pressure_factor, ultimate, e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz);
+  expect_keys(m, modulus, ratio, plane, density, loss, conductivity, warmest, measure, limit, strain, cycles,
+              exponent, pressure_factor, ultimate, e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz);
   const Load l;
   const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, ground, ground_radius,
                ground_height, ground_place, ground_profile, positions, own, cases] = l;
   expect_keys(l, force, travel, along, lateral, camber, torque, body, pressure, speed, ground, ground_radius,
               ground_height, ground_place, ground_profile, positions);
+  const Heat h;
+  const auto& [ambient, rim, convection, of_tread, of_holes, of_sides] = h;
+  expect_keys(h, ambient, rim, convection, of_tread, of_holes, of_sides);
   const Contact t;
   const auto& [with, method, theta, gamma_0, friction, points] = t;
   expect_keys(t, with, method, theta, gamma_0, friction, points);

@@ -140,6 +140,12 @@ std::vector<Case> starting_points() {
       if (measure == FatigueMeasure::goodman) constants.ultimate_strength = 2e7;
       cases.push_back(tired);
     }
+    Case warm = plain;
+    warm.material.loss_factor = 0.1;
+    warm.material.conductivity = 0.3;
+    warm.load.speed = 1;
+    warm.heat.convection = 20;
+    cases.push_back(warm);
     Case layered = plain;
     layered.layers = {{.name = "kerb", .outer_radius = 0.25}};
     layered.layers[0].density = 2000;

@@ -10,6 +10,7 @@
 #include "wheelwright/quantities/functionals/fatigue.h"
 #include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/material_volume.h"
+#include "wheelwright/quantities/functionals/peak_temperature.h"
 #include "wheelwright/quantities/functionals/peak_von_mises.h"
 #include "wheelwright/quantities/functionals/perimeter.h"
 #include "wheelwright/quantities/functionals/rim_quantities.h"
@@ -145,6 +146,20 @@ TEST(RadiusGradient, OfATurnPassesTheTaylorTest) {
   expect_exact(wheel, psi, [](const RollingModel<2>& model) {
     return WeightedSum<2>{
         {1, std::make_shared<FatigueUtilization<2>>(model.materials, std::nullopt, PeakNorm{4, 1.0})}};
+  });
+}
+
+/// The conduction is stretched too, with convection in the hole across the line.
+TEST(RadiusGradient, OfTheTemperaturePassesTheTaylorTest) {
+  auto wheel = generic_wheel(50, 0.4);
+  wheel.model.distributed.angular_speed = 15;
+  wheel.model.cooling = Cooling{20, 35, 25, 15, 10};
+  for (std::size_t k = 0; k < wheel.materials.size(); ++k) {
+    wheel.materials[k].loss_factor = k == 1 ? 0.02 : 0.1;
+    wheel.materials[k].conductivity = k == 1 ? 5 : 0.3;
+  }
+  expect_exact(wheel, generic_holes(wheel.model.grid), [](const auto&) {
+    return WeightedSum<2>{{1, std::make_shared<PeakTemperature<2>>(std::nullopt, PeakNorm{4, 1.0})}};
   });
 }
 

@@ -18,7 +18,9 @@ enum class UnitKind {
   torsional_stiffness,
   turns,
   angle,
-  distance
+  distance,
+  temperature,  ///< in degrees Celsius
+  power
 };
 
 /// The unit of each kind. In 2D, energies, forces, torques, masses and stiffnesses are those of one
@@ -51,6 +53,10 @@ constexpr const char* unit(UnitKind kind) {
       return "turns below a cell";
     case UnitKind::angle:
       return "rad";
+    case UnitKind::temperature:
+      return "deg C";
+    case UnitKind::power:
+      return dim == 2 ? "W/m" : "W";
   }
   return "";
 }
@@ -66,7 +72,8 @@ constexpr double whole_width(int dimension, double width) { return dimension == 
 /// Whether numbers of this kind are those of one metre of width in 2D.
 constexpr bool is_per_width(UnitKind kind) {
   return kind != UnitKind::length && kind != UnitKind::stress && kind != UnitKind::ratio &&
-         kind != UnitKind::turns && kind != UnitKind::angle && kind != UnitKind::distance;
+         kind != UnitKind::turns && kind != UnitKind::angle && kind != UnitKind::distance &&
+         kind != UnitKind::temperature;
 }
 
 /// The ending of keys of numbers of this kind on the whole width, e.g. "N_per_m"; empty for ratios.
@@ -87,6 +94,8 @@ constexpr const char* unit_in_key(UnitKind kind, int dimension) {
       return "N_m_per_rad";
     case UnitKind::turns:
       return "turns";
+    case UnitKind::temperature:
+      return "deg_C";
     default:
       return unit(kind, 3);
   }

@@ -78,6 +78,8 @@ struct MaterialLayer : OrthotropicConstants, FatigueConstants {
   double poissons_ratio = 0.48;
   std::optional<double> density = {};  ///< [kg/m^3]
   std::optional<LossFactor> loss_factor = {};
+  std::optional<double> conductivity = {};         ///< [W/(m K)]
+  std::optional<double> maximum_temperature = {};  ///< [deg C]
   LayerHoles holes = LayerHoles::allowed;
   /// Between which the optimizer chooses its radii together with the shape; absent: they stay [m].
   std::optional<std::array<double, 2>> inner_radius_range = {}, outer_radius_range = {};
@@ -127,6 +129,15 @@ struct Load {
   std::vector<OwnValue<double>> own = {};                  ///< of the keys that a program adds
   std::vector<CaseLoad> cases = {};                        ///< empty: only this load
   bool operator==(const Load&) const = default;
+};
+
+/// How a rolling wheel gives its heat away: Cooling.
+struct Heat {
+  double ambient_temperature = 20;             ///< [deg C]
+  std::optional<double> rim_temperature = {};  ///< absent: the rim is insulated [deg C]
+  std::optional<double> convection = {};       ///< of all surfaces without a value of their own [W/(m^2 K)]
+  std::optional<double> tread_convection = {}, hole_convection = {}, side_convection = {};
+  bool operator==(const Heat&) const = default;
 };
 
 struct Contact {
@@ -479,6 +490,7 @@ struct Case {
   std::vector<MaterialLayer> layers;
   std::vector<MaterialCord> cords;
   Load load;
+  Heat heat;
   Contact contact;
   Holes holes;
   SavedShape saved_shape;

@@ -17,6 +17,7 @@ Conflicts conflicts(const Case& c) {
   ground_conflicts(c, found);
   contact_conflicts(c, found);
   material_conflicts(c, found);
+  heat_conflicts(c, found);
   dimension_conflicts(c, found);
   objective_conflicts(c, found);
   volume_conflicts(c, found);

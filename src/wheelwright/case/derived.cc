@@ -256,6 +256,8 @@ bool holds_volume(const Case& c) { return !optimizes_any(c, &QuantityRow::is_amo
 
 bool optimizes_stresses(const Case& c) { return optimizes_any(c, &QuantityRow::integrates_stresses); }
 
+bool optimizes_temperatures(const Case& c) { return optimizes_any(c, &QuantityRow::depends_on_heat); }
+
 bool wants_annulus(const Case& c) {
   return c.objective.annulus_matches_dual.has_value() || optimizes_any(c, &QuantityRow::observes_annulus);
 }

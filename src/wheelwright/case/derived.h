@@ -123,6 +123,9 @@ bool holds_volume(const Case& c);
 /// Whether integrals of stresses over the material are minimized or bounded.
 bool optimizes_stresses(const Case& c);
 
+/// Whether a temperature is minimized or bounded.
+bool optimizes_temperatures(const Case& c);
+
 /// Whether any functional compares the contact stress of the load positions.
 bool wants_uniformity(const Case& c);
 

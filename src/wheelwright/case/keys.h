@@ -243,6 +243,7 @@ const SectionArray<CaseLoad>& load_case_sections();
 /// The same with the own keys of this load.
 Section<Load> load_section(const Load& load);
 SectionArray<CaseLoad> load_case_sections(const Load& load);
+const Section<Heat>& heat_section();
 const Section<Contact>& contact_section();
 const SectionArray<HoleRing>& ring_sections();
 const SectionArray<HoleCircle>& circle_sections();
@@ -273,15 +274,16 @@ constexpr std::tuple shape_sections{&circle_shape_sections,  &ellipse_shape_sect
                                     &file_shape_sections,    &picture_shape_sections};
 
 /// Every Section and SectionArray, in the order of the file.
-constexpr std::tuple all_sections = std::tuple_cat(
-    std::tuple{&general_section, &wheel_section, &material_section, &material_layer_sections,
-               &material_cord_sections, static_cast<const Section<Load>& (*)()>(&load_section),
-               static_cast<const SectionArray<CaseLoad>& (*)()>(&load_case_sections), &contact_section,
-               &ring_sections, &circle_sections, &sphere_sections, &tapered_sections, &saved_shape_section},
-    shape_sections,
-    std::tuple{&grid_section, &ghost_penalty_section, &objective_section, &objective_term_sections,
-               &constraint_sections, &volume_section, &optimizer_section, &output_section,
-               &expectation_sections});
+constexpr std::tuple all_sections =
+    std::tuple_cat(std::tuple{&general_section, &wheel_section, &material_section, &material_layer_sections,
+                              &material_cord_sections, static_cast<const Section<Load>& (*)()>(&load_section),
+                              static_cast<const SectionArray<CaseLoad>& (*)()>(&load_case_sections),
+                              &heat_section, &contact_section, &ring_sections, &circle_sections,
+                              &sphere_sections, &tapered_sections, &saved_shape_section},
+                   shape_sections,
+                   std::tuple{&grid_section, &ghost_penalty_section, &objective_section,
+                              &objective_term_sections, &constraint_sections, &volume_section,
+                              &optimizer_section, &output_section, &expectation_sections});
 
 /// Calls visit(section) for the arrays of shapes.
 template <class Visitor>

@@ -36,6 +36,8 @@ Material isotropic_material(const Case& c, const std::optional<std::size_t>& lay
   if (layer) {
     const MaterialLayer& from = c.layers[*layer];
     material = {from.youngs_modulus, from.poissons_ratio, c.material.plane, from.density, from.loss_factor};
+    material.conductivity = from.conductivity;
+    material.maximum_temperature = from.maximum_temperature;
   }
   material.fatigue = fatigue_strength(fatigue_constants(c, layer));
   return material;
@@ -76,7 +78,9 @@ std::optional<OrthotropicMaterial> orthotropic_material(const Case& c,
                              .plane = isotropic.plane,
                              .density = isotropic.density,
                              .loss_factor = isotropic.loss_factor,
-                             .fatigue = isotropic.fatigue};
+                             .fatigue = isotropic.fatigue,
+                             .conductivity = isotropic.conductivity,
+                             .maximum_temperature = isotropic.maximum_temperature};
 }
 
 double PlacedMaterial::youngs_modulus() const {
@@ -102,6 +106,10 @@ std::optional<double> PlacedMaterial::fatigue_limit() const {
 
 std::optional<double> PlacedMaterial::fatigue_exponent() const {
   return std::visit([](const auto& m) { return m.fatigue ? m.fatigue->exponent : std::nullopt; }, material);
+}
+
+std::optional<double> PlacedMaterial::conductivity() const {
+  return std::visit([](const auto& m) { return m.conductivity; }, material);
 }
 
 double PlacedMaterial::least_compliance() const {
@@ -266,6 +274,19 @@ bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part) {
 }
 
 bool has_fatigue_exponent(const Case& c) { return all_have(c, {}, &PlacedMaterial::fatigue_exponent); }
+
+bool has_conductivity(const Case& c) { return all_have(c, {}, &PlacedMaterial::conductivity); }
+
+std::optional<Cooling> cooling(const Case& c) {
+  const double everywhere = c.heat.convection.value_or(0);
+  Cooling cooling{.ambient_temperature = c.heat.ambient_temperature,
+                  .rim_temperature = c.heat.rim_temperature,
+                  .tread = c.heat.tread_convection.value_or(everywhere),
+                  .holes = c.heat.hole_convection.value_or(everywhere),
+                  .side_faces = c.heat.side_convection.value_or(everywhere)};
+  if (c.wheel.dimension == 3 && c.wheel.side_faces == SideFaces::symmetric) cooling.side_faces = 0;
+  return cooling.any() ? std::optional(cooling) : std::nullopt;
+}
 
 PlacedMaterial tread_material(const Case& c) { return placed_materials(c).back(); }
 

@@ -7,6 +7,7 @@
 #include "wheelwright/case/case.h"
 #include "wheelwright/case/case_key.h"
 #include "wheelwright/mechanics/elasticity/materials.h"
+#include "wheelwright/mechanics/state/cooling.h"
 
 namespace wheelwright {
 
@@ -29,6 +30,7 @@ struct PlacedMaterial {
   std::optional<LossFactor> loss_factor() const;
   std::optional<double> fatigue_limit() const;  ///< FatigueStrength::limit
   std::optional<double> fatigue_exponent() const;
+  std::optional<double> conductivity() const;  ///< [W/(m K)]
   /// The least share of a unit compliance: near 0 elements lock. 1 - 2 nu of an isotropic material in plane
   /// strain.
   double least_compliance() const;
@@ -114,6 +116,10 @@ bool has_density(const Case& c, const std::optional<PartOfRing>& part = {});
 bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part = {});
 bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part = {});
 bool has_fatigue_exponent(const Case& c);
+bool has_conductivity(const Case& c);
+
+/// How a wheel gives its heat away; nothing if nothing takes it.
+std::optional<Cooling> cooling(const Case& c);
 
 /// The material at the tread.
 PlacedMaterial tread_material(const Case& c);

@@ -2,6 +2,51 @@
 
 namespace wheelwright {
 
+namespace {
+
+constexpr std::string_view convection_unit = "W/(m^2 K)";
+
+Key<Heat> convection_key(std::optional<double> Heat::*member, std::string_view name, std::string_view absent,
+                         std::string_view meaning) {
+  return {.name = name,
+          .unit = convection_unit,
+          .field = OptionalNumberField<Heat>{member, between(0, 1e5), absent},
+          .meaning = meaning};
+}
+
+}  // namespace
+
+const Section<Heat>& heat_section() {
+  constexpr Range temperatures = between(-200, 2000);
+  static const Section<Heat> section{
+      .name = "heat",
+      .meaning =
+          "how warm the rolling wheel gets: load.speed and the loss factors of the materials give the heat, "
+          "their conductivities lead it to the rim and to the surfaces, which the air cools; it is computed "
+          "if "
+          "the section has a rim_temperature or a convection",
+      .in = [](Case& c) -> Heat& { return c.heat; },
+      .keys = {
+          {.name = "ambient_temperature",
+           .unit = "deg C",
+           .field = NumberField<Heat>{&Heat::ambient_temperature, temperatures},
+           .meaning = "of the air"},
+          {.name = "rim_temperature",
+           .unit = "deg C",
+           .field = OptionalNumberField<Heat>{&Heat::rim_temperature, temperatures, "no heat passes the rim"},
+           .meaning = "of the rim, which takes the heat that reaches it"},
+          convection_key(&Heat::convection, "convection", "none",
+                         "coefficient of convection: heat to the air by area and rise of the "
+                         "temperature, the mean over a turn, on all surfaces without one of their own"),
+          convection_key(&Heat::tread_convection, "tread_convection", "heat.convection", "that of the tread"),
+          convection_key(&Heat::hole_convection, "hole_convection", "heat.convection",
+                         "that of the edges of the holes"),
+          convection_key(&Heat::side_convection, "side_convection", "heat.convection",
+                         "that of both side faces; in 2D they take heat from the material between them; "
+                         "with wheel.side_faces = \"symmetric\" in 3D there are none")}};
+  return section;
+}
+
 const Section<Contact>& contact_section() {
   static const Section<Contact> section{
       .name = "contact",

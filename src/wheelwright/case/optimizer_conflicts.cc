@@ -46,6 +46,9 @@ void check_nucleation(const Case& c, Conflicts& found) {
   if (orthotropic != ring.end() && optimizes_stresses(c))
     refuse({key_of(&Optimizer::nucleation), key_of(&Objective::minimize), orthotropic->youngs_modulus_key()},
            "the effect of new holes on stresses is known only in isotropic materials");
+  if (optimizes_temperatures(c))
+    refuse({key_of(&Optimizer::nucleation), key_of(&Objective::minimize)},
+           "the effect of new holes on the temperature is not known");
 }
 
 }  // namespace

@@ -13,6 +13,14 @@ bool has(const Case& c, Input input, const std::optional<PartOfRing>& part) {
       return has_loss_factor(c, part);
     case Input::fatigue_limit:
       return has_fatigue_limit(c, part);
+    case Input::all_loss_factors:
+      return has_loss_factor(c);
+    case Input::conductivity:
+      return has_conductivity(c);
+    case Input::cooling:
+      return cooling(c).has_value();
+    case Input::speed:
+      return c.load.speed > 0;
     case Input::load:
       return !c.load.travel;
     case Input::travel:
@@ -27,7 +35,7 @@ bool has(const Case& c, Input input, const std::optional<PartOfRing>& part) {
   return true;
 }
 
-/// Of a constant of the materials; nothing for other inputs.
+/// Of a constant of the materials, or of the cooling; nothing for other inputs.
 std::optional<Need> need_of_materials(Input input) {
   switch (input) {
     case Input::density:
@@ -38,6 +46,15 @@ std::optional<Need> need_of_materials(Input input) {
     case Input::fatigue_limit:
       return Need{key_of(&RingMaterial::fatigue_measure),
                   "fatigue needs the measure and the limit of every material"};
+    case Input::all_loss_factors:
+      return Need{key_of(&Material::loss_factor),
+                  "the temperature needs the loss factor of every material, 0 for one without losses"};
+    case Input::conductivity:
+      return Need{key_of(&Material::conductivity),
+                  "the temperature needs the conductivity of every material"};
+    case Input::cooling:
+      return Need{key_of(&Heat::convection),
+                  "the temperature needs a convection or a heat.rim_temperature that takes the heat"};
     default:
       return {};
   }
@@ -46,6 +63,8 @@ std::optional<Need> need_of_materials(Input input) {
 Need need(const SingleLoad& single, Input input) {
   if (const auto of_materials = need_of_materials(input)) return *of_materials;
   switch (input) {
+    case Input::speed:
+      return {single.key(&Load::speed), "how warm the wheel gets needs its speed, more than 0"};
     case Input::load:
       return {single.key(&Load::travel), "the travel varies only under a load; here it is prescribed"};
     case Input::travel:
@@ -73,6 +92,16 @@ Constancy constancy_without(const SingleLoad& single, Input input) {
     case Input::fatigue_limit:
       return {key_of(&RingMaterial::fatigue_measure), "it is 0 without a fatigue limit",
               "set material.fatigue_measure and its limit"};
+    case Input::all_loss_factors:
+      return {key_of(&Material::loss_factor), "without loss factors nothing warms the wheel",
+              "set material.loss_factor"};
+    case Input::conductivity:
+      return {key_of(&Material::conductivity), "it is not known without a conductivity",
+              "set material.conductivity"};
+    case Input::cooling:
+      return {key_of(&Heat::convection), "it is not known without cooling", "set heat.convection"};
+    case Input::speed:
+      return {single.key(&Load::speed), "a wheel at rest stays cold", "set load.speed"};
     case Input::load:
       return {single.key(&Load::travel), "it is the prescribed travel for every wheel",
               "set a load in place of load.travel"};

@@ -17,7 +17,7 @@ struct Need {
 /// Those that the case does not meet under this load.
 std::vector<Need> unmet_needs(const SingleLoad& single, const Quantity& quantity);
 
-/// Those of the materials' constants, which no load changes.
+/// Those of the materials' constants and of the cooling, which no load changes.
 std::vector<Need> unmet_needs_of_materials(const Case& c, const Quantity& quantity);
 
 /// Why a quantity is the same for every wheel, so that it can neither be minimized nor be bounded.

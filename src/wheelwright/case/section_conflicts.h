@@ -22,6 +22,8 @@ void load_conflicts(const Case& c, Conflicts& found);
 void ground_conflicts(const Case& c, Conflicts& found);
 void contact_conflicts(const Case& c, Conflicts& found);
 void material_conflicts(const Case& c, Conflicts& found);
+/// A section heat without what it needs.
+void heat_conflicts(const Case& c, Conflicts& found);
 /// Ranges of radii of layers, whose places must be valid.
 void design_radius_conflicts(const Case& c, Conflicts& found);
 /// Keys that exist only in 2D or only in 3D.

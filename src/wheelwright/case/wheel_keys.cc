@@ -50,7 +50,8 @@ const Section<Wheel>& wheel_section() {
 namespace {
 
 constexpr Range modulus = above(0, 1e13), ratio = at_least_and_below(0, 0.5), densities = above(0, 1e5),
-                loss_factors = between(0, 2), any_ratio = between(-100, 100);
+                loss_factors = between(0, 2), conductivities = between(1e-3, 1e4),
+                temperatures = between(-200, 2000), any_ratio = between(-100, 100);
 constexpr std::string_view
     meaning_of_modulus =
         "E: Young's modulus of an isotropic material; an orthotropic one has youngs_modulus_radial and "
@@ -63,6 +64,11 @@ constexpr std::string_view
         "material; 0 has no losses, and above about 0.3 the resistance is only a rough estimate; over the "
         "frequency [[Hz, tan(delta)], ...], linear over its logarithm and constant beyond the ends, at "
         "load.speed",
+    meaning_of_conductivity =
+        "thermal conductivity, the same along all axes, for the temperature of the rolling wheel, which "
+        "needs that of every material and the section heat",
+    meaning_of_maximum_temperature =
+        "up to which the material may be used: where the wheel gets warmer, the results say so",
     isotropic = "the material is isotropic";
 
 /// The constants of an orthotropic material, as keys of Struct.
@@ -151,10 +157,24 @@ std::vector<Key<Struct>> fatigue_keys() {
        .meaning = "R_m of goodman"}};
 }
 
-/// With the constants of an orthotropic material and of fatigue.
+template <class Struct>
+std::vector<Key<Struct>> heat_keys() {
+  return {
+      {.name = "conductivity",
+       .unit = "W/(m K)",
+       .field = OptionalNumberField<Struct>{&Struct::conductivity, conductivities, "no temperature is shown"},
+       .meaning = meaning_of_conductivity},
+      {.name = "maximum_temperature",
+       .unit = "deg C",
+       .field = OptionalNumberField<Struct>{&Struct::maximum_temperature, temperatures,
+                                            "no temperature is too high"},
+       .meaning = meaning_of_maximum_temperature}};
+}
+
+/// With the constants of an orthotropic material, of heat and of fatigue.
 template <class Struct>
 std::vector<Key<Struct>> with_further_constants(std::vector<Key<Struct>> keys) {
-  for (auto& further : {orthotropic_keys<Struct>(), fatigue_keys<Struct>()})
+  for (auto& further : {heat_keys<Struct>(), orthotropic_keys<Struct>(), fatigue_keys<Struct>()})
     keys.insert(keys.end(), further.begin(), further.end());
   return keys;
 }

@@ -16,6 +16,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/ground_of.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/output/report/heat_report.h"
 #include "wheelwright/output/report/pass_report.h"
 #include "wheelwright/output/report/pressure_plot.h"
 #include "wheelwright/output/report/rolling_report.h"
@@ -37,7 +38,7 @@ constexpr const char* result_file = "analysis.json";
 constexpr std::string_view files_of_analysis[] = {
     "analysis.json",      "travel.svg",       "force.svg",    "peak_pressure.svg", "pressures.svg",
     "pressures.csv",      "pass.csv",         "loads.svg",    "mesh.svg",          "stress.svg",
-    "stress_contact.svg", "displacement.svg", "pressure.svg", "fatigue.svg"};
+    "stress_contact.svg", "displacement.svg", "pressure.svg", "fatigue.svg",       "temperature.svg"};
 
 /// The case with the tread levels of another one.
 Case with_levels_of(Case c, const Case& other) {
@@ -66,6 +67,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   report.fatigue = fatigue_results(solver, wheel.shape, solution);
   report.damage = fatigue_damage(solver, wheel.shape, solution, all_loads, print_contact_progress());
   for (const auto& load_case : all_loads) report.load_cases.push_back(load_case.name);
+  report.heat = heat_results(solver, wheel.shape, solution);
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
   report.under_loads = under_loads<dim>(solution, report.loads);
   return report;
@@ -83,7 +85,15 @@ Expected<FinerReport, std::string> finer_report(const Expected<SolvedFinerShape<
       finer->refinement,
       rolling_losses<dim>(*finer->solver, finer->shape, *finer->states),
       fatigue_results<dim>(*finer->solver, finer->shape, *finer->states),
-      fatigue_damage<dim>(*finer->solver, finer->shape, *finer->states, all_loads, print_contact_progress())};
+      fatigue_damage<dim>(*finer->solver, finer->shape, *finer->states, all_loads, print_contact_progress()),
+      heat_results<dim>(*finer->solver, finer->shape, *finer->states)};
+}
+
+std::vector<std::string> warnings_of_heat(const RollingReport& report) {
+  if (!report.heat || !*report.heat) return {};
+  std::vector<std::string> layers;
+  for (const LayerResults& layer : report.analysis.layers) layers.push_back(layer.name);
+  return too_warm(**report.heat, layers);
 }
 
 void write_plots(const std::filesystem::path& folder, const RollingReport& report) {
@@ -221,6 +231,7 @@ class AnalyzeCommand : public Subcommand {
     const auto size = deformation_size<dim>(solver, shape, **solved, report.analysis.deformations);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       warn_about(wheel.name, warning);
+    for (const std::string& warning : warnings_of_heat(report)) warn_about(wheel.name, warning);
     if (output_) write(report, shape, solver, **solved, all_loads);
     return exit_done;
   }

@@ -22,9 +22,9 @@ RankedQuantity ranked(const Quantity& quantity) {
 namespace {
 
 constexpr std::array names_of_ranked{
-    "stiffness",      "strain_energy",   "volume_fraction",    "mass",
-    "run_out",        "force_variation", "peak_pressure",      "peak_von_mises",
-    "largest_strain", "roughness",       "rolling_resistance", "fatigue_utilization"};
+    "stiffness",          "strain_energy",       "volume_fraction", "mass",           "run_out",
+    "force_variation",    "peak_pressure",       "peak_von_mises",  "largest_strain", "roughness",
+    "rolling_resistance", "fatigue_utilization", "peak_temperature"};
 
 }  // namespace
 

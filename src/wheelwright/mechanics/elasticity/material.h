@@ -16,12 +16,14 @@ enum class Plane {
 /// Isotropic linear elasticity (2). When dim = 2, in plane strain or plane stress, and nothing else knows
 /// which: the law in the plane is the same for both, with the constants of plane_strain_equivalent().
 struct Material {
-  double youngs_modulus = 200e6;                ///< E [Pa]
-  double poissons_ratio = 0.48;                 ///< nu, 0 <= nu < 1/2
-  Plane plane = Plane::strain;                  ///< must be strain when dim = 3
-  std::optional<double> density = {};           ///< [kg/m^3]; needed for the mass and for rotation
-  std::optional<LossFactor> loss_factor = {};   ///< for the rolling resistance
-  std::optional<FatigueStrength> fatigue = {};  ///< what it bears over many turns
+  double youngs_modulus = 200e6;                   ///< E [Pa]
+  double poissons_ratio = 0.48;                    ///< nu, 0 <= nu < 1/2
+  Plane plane = Plane::strain;                     ///< must be strain when dim = 3
+  std::optional<double> density = {};              ///< [kg/m^3]; needed for the mass and for rotation
+  std::optional<LossFactor> loss_factor = {};      ///< for the rolling resistance
+  std::optional<FatigueStrength> fatigue = {};     ///< what it bears over many turns
+  std::optional<double> conductivity = {};         ///< thermal [W/(m K)]; for temperatures
+  std::optional<double> maximum_temperature = {};  ///< up to which it may be used [deg C]
 
   /// The material that has the same in-plane stresses in plane strain: itself, or for plane stress E' = E (1
   /// + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).
@@ -33,7 +35,9 @@ struct Material {
             Plane::strain,
             density,
             loss_factor,
-            fatigue};
+            fatigue,
+            conductivity,
+            maximum_temperature};
   }
 
   /// Lame's parameters of the law sigma = lambda tr(eps) I + 2 mu eps in the model's dimension [Pa]. In plane

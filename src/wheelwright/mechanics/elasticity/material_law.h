@@ -65,6 +65,12 @@ class MaterialLaw {
   /// tan(delta), at least 0; needed for the rolling resistance. Of a linear law.
   virtual std::optional<LossFactor> loss_factor() const { return {}; }
 
+  /// Thermal conductivity [W/(m K)], positive, the same along all axes; needed for temperatures.
+  virtual std::optional<double> conductivity() const { return {}; }
+
+  /// The temperature [deg C] up to which it may be used.
+  virtual std::optional<double> maximum_temperature() const { return {}; }
+
   /// What it bears over many turns; null if that is unknown. Of a linear law.
   virtual const FatigueStrength* fatigue_strength() const { return nullptr; }
 

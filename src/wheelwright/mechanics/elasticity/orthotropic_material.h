@@ -25,6 +25,8 @@ struct OrthotropicMaterial {
   std::optional<double> density = {};          ///< [kg/m^3]
   std::optional<LossFactor> loss_factor = {};  ///< of all moduli
   std::optional<FatigueStrength> fatigue = {};
+  std::optional<double> conductivity = {};  ///< thermal, the same along all axes [W/(m K)]
+  std::optional<double> maximum_temperature = {};
 
   /// The part of the compliance that is free of units and does not depend on the moduli: it has a unit
   /// diagonal, and -coupling beside it. Their squares are nu_ab nu_ba.

@@ -13,7 +13,8 @@ namespace {
 
 /// The loads on one cell's dofs, one row per load case; empty if there are none.
 template <int dim>
-Matrix cell_loads(const ElasticElement<dim>& element, const MaterialLaw<dim>& law, const Matrix& strains,
+Matrix cell_loads(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
+                  const std::array<int, dim>& place, const Matrix& strains,
                   std::span<const ReferencePoint<dim>> points, int n_sectors,
                   std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
   const int n_cases = strains.columns(), n_points = static_cast<int>(points.size());
@@ -25,8 +26,9 @@ Matrix cell_loads(const ElasticElement<dim>& element, const MaterialLaw<dim>& la
     for (int load_case = 0; load_case < n_cases; ++load_case)
       of_case[load_case] = factors[load_case / n_sectors];
     for (int q = 0; q < n_points; ++q) {
-      density->slopes({strain_columns<dim>(of_cases, n_strains<dim> * q), n_sectors, law}, of_case,
-                      stress_columns<dim>(slopes, 0));
+      density->slopes(
+          {strain_columns<dim>(of_cases, n_strains<dim> * q), n_sectors, law, place, points[q].xi}, of_case,
+          stress_columns<dim>(slopes, 0));
       double* sum = stresses.column(n_strains<dim> * q);
       for (size_t i = 0; i < slopes.entries().size(); ++i) {
         sum[i] += slopes.data()[i];
@@ -86,12 +88,12 @@ MaterialLoads material_loads(const RollingProblem<dim>& problem, const RollingSo
   const auto cells = rule.cells();
   const auto of_cell = [&](int k) {
     const auto& [cell, points] = cells[k];
-    const int row = grid.cell_position(cell)[0];
-    const auto covering = integrals_in_row<dim>(integrals, grid, row);
+    const auto place = grid.cell_position(cell);
+    const auto covering = integrals_in_row<dim>(integrals, grid, place[0]);
     if (covering.empty()) return Matrix();
     std::vector<Vec<dim>> xi;
     for (const auto& point : points) xi.push_back(point.xi);
-    return cell_loads<dim>(problem.elements().element(row), problem.elements().law(row),
+    return cell_loads<dim>(problem.elements().element(place[0]), problem.elements().law(place[0]), place,
                            displacement.strains(cell, xi), points, grid.n_sectors, covering);
   };
   compute_in_parallel(static_cast<int>(cells.size()), of_cell, [&](int k, const Matrix& of_dofs) {

@@ -163,10 +163,11 @@ class FormsByRadius {
                       product(u, Op::none, strain_maps<dim>(element, points), Op::none), Op::none);
           for (size_t q = 0; q < points.size(); ++q)
             sum += rule[q].weight * points[q].determinant *
-                   integrand<dim>(s_.positions,
-                                  {strain_columns<dim>(of_cases, n_strains<dim> * static_cast<int>(q)),
-                                   s_.ring.n_sectors(), core.elements().law(row)},
-                                  covering);
+                   integrand<dim>(
+                       s_.positions,
+                       {strain_columns<dim>(of_cases, n_strains<dim> * static_cast<int>(q)),
+                        s_.ring.n_sectors(), core.elements().law(row), grid.cell_position(cell), rule[q].xi},
+                       covering);
         });
     return sum;
   }

@@ -59,21 +59,22 @@ class Derivatives {
         for (int k = 0; k < n_strains<dim>; ++k) strain[k] += 0.5 * strain_w(k, mode);
         sum -= work_on_small_hole<dim>(law, voigt<dim>(strain_u, mode), strain);
       }
-      derivatives.push_back(sum + of_integrals(functions_[f].integrals, law, strain_u, place[0]));
+      derivatives.push_back(sum + of_integrals(functions_[f].integrals, law, strain_u, place, point.xi));
     }
     return derivatives;
   }
 
  private:
   double of_integrals(std::span<const typename FunctionalDerivative<dim>::Integral> all,
-                      const MaterialLaw<dim>& law, const Matrix& strain_u, int row) const {
-    const auto integrals = integrals_in_row<dim>(all, problem_.model().grid, row);
+                      const MaterialLaw<dim>& law, const Matrix& strain_u, const std::array<int, dim>& place,
+                      const Vec<dim>& xi) const {
+    const auto integrals = integrals_in_row<dim>(all, problem_.model().grid, place[0]);
     if (integrals.empty()) return 0;
     double sum = 0;
     if constexpr (dim == 2) {
       const Matrix of_cases = product(displacement_.weights, Op::none, strain_u, Op::transpose);
       const int n_sectors = s_.ring.n_sectors();
-      const StrainsAtPoint<2> point{strain_columns<2>(of_cases, 0), n_sectors, law};
+      const StrainsAtPoint<2> point{strain_columns<2>(of_cases, 0), n_sectors, law, place, xi};
       for (const auto& [density, factors] : integrals) {
         std::vector<double> of_case;
         for (int j = 0; j < point.n_cases(); ++j)

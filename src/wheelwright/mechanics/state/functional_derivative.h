@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -18,6 +19,8 @@ struct StrainsAtPoint {
   StrainRows<dim> strains;  ///< [component][load case], in the axes that the law wants
   int n_sectors;
   const MaterialLaw<dim>& law;
+  std::array<int, dim> cell;  ///< the position of the point's cell on the grid of the sector
+  Vec<dim> xi;                ///< the point in the unit cell
 
   int n_cases() const { return static_cast<int>(strains[0].size()); }
 };

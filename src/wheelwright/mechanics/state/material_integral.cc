@@ -26,14 +26,16 @@ StrainedCells<dim>::StrainedCells(const StateSolver<dim>& solver, const State<di
 template <int dim>
 StrainedCell<dim> StrainedCells<dim>::operator[](int k) const {
   const auto& [cell, points] = cells_[k];
+  const auto place = model_.grid.cell_position(cell);
   auto quadrature = weighted_points(model_.grid, model_.degree, cell, points);
   Matrix strains = by_load_case(displacement_.strains(cell, quadrature.points));
   return {cell,
+          place,
           std::move(quadrature.points),
           std::move(quadrature.weights),
           std::move(strains),
           model_.grid.n_sectors,
-          model_.materials.in_row(model_.grid, model_.grid.cell_position(cell)[0])};
+          model_.materials.in_row(model_.grid, place[0])};
 }
 
 template <int dim>

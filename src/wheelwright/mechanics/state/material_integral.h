@@ -15,6 +15,7 @@ std::vector<double> material_integral(const StateSolver<dim>& solver, const Stat
 template <int dim>
 struct StrainedCell {
   int cell;
+  std::array<int, dim> place;    ///< the position of the cell on the grid
   std::vector<Vec<dim>> points;  ///< of the unit cell
   std::vector<double> weights;   ///< of the points [m^2, or m^3 when dim = 3]
   Matrix strains;                ///< one row per load case, n_strains columns per point
@@ -23,7 +24,7 @@ struct StrainedCell {
 
   int n_points() const { return static_cast<int>(weights.size()); }
   StrainsAtPoint<dim> at(int point) const {
-    return {strain_columns<dim>(strains, n_strains<dim> * point), n_sectors, law};
+    return {strain_columns<dim>(strains, n_strains<dim> * point), n_sectors, law, place, points[point]};
   }
 };
 

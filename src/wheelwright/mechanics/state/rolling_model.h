@@ -8,6 +8,7 @@
 #include "wheelwright/mechanics/elasticity/materials.h"
 #include "wheelwright/mechanics/elasticity/side_faces.h"
 #include "wheelwright/mechanics/state/contact_law.h"
+#include "wheelwright/mechanics/state/cooling.h"
 #include "wheelwright/mechanics/state/ground.h"
 #include "wheelwright/mechanics/state/rim.h"
 #include "wheelwright/shape/geometry/polar_grid.h"
@@ -80,6 +81,7 @@ struct RollingModel : WheelLoads<dim> {
   /// differentiated, counted from the rim: edges of layers. A line stretches the rows up to the next fixed
   /// lines, none of which may be condensed at the tread.
   std::vector<int> design_lines = {};
+  std::optional<Cooling> cooling = {};  ///< absent: nobody asks how warm the wheel gets
 
   const WheelLoads<dim>& loads() const { return *this; }
   WheelLoads<dim>& loads() { return *this; }

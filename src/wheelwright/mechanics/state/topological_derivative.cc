@@ -77,7 +77,8 @@ double removed_density(const MaterialDensity<2>& density, const StrainsAtPoint<2
           all(j, i) = strain[i] + around[i];
         }
       }
-      const StrainsAtPoint<2> strained{strain_columns<2>(all, 0), point.n_sectors, point.law};
+      const StrainsAtPoint<2> strained{strain_columns<2>(all, 0), point.n_sectors, point.law, point.cell,
+                                       point.xi};
       sum += weights[q] / (t * t * n_angles) *
              (weighted_sum(density, strained, factors) - value - product(slopes, added));
     }

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "wheelwright/mechanics/state/material_integral.h"
 #include "wheelwright/mechanics/state/turn_harmonics.h"
 
 namespace wheelwright {
@@ -116,8 +115,34 @@ void LossDensity<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const 
 }
 
 template <int dim>
+void LossDensity<dim>::slopes_of_sum(const StrainsAtPoint<dim>& point, const StressRows<dim>& slopes) const {
+  const Matrix filtered = combined<dim>(filter_, point.strains);
+  point.law.stress(strain_columns<dim>(filtered, 0), slopes);
+}
+
+template <int dim>
 bool LossDensity<dim>::covers(const PolarGrid<dim>& grid, int row) const {
   return materials_.layer_at(grid.middle_of_row(row)) == layer_;
+}
+
+template <int dim>
+LossOfTurn<dim>::LossOfTurn(const RollingModel<dim>& model, double loss_factor) {
+  const TurnHarmonics turn(model.n_positions, model.grid.n_sectors);
+  const auto forces = forces_by_energy(model.grid, turn.n_harmonics(), loss_factor / model.n_positions);
+  waves_ = turn.waves();
+  for (int wave = 0; wave < turn.n_cases(); ++wave) factors_.push_back(forces[TurnHarmonics::harmonic(wave)]);
+}
+
+template <int dim>
+std::vector<double> LossOfTurn<dim>::densities(const StrainedCell<dim>& cell) const {
+  const Matrix amplitudes = product(waves_, Op::transpose, cell.strains, Op::none);
+  std::vector<double> densities;
+  for (int q = 0; q < cell.n_points(); ++q) {
+    const auto strains = strain_columns<dim>(amplitudes, n_strains<dim> * q);
+    const auto of_waves = energies<dim>(cell.law, strains, strains);
+    densities.push_back(std::inner_product(of_waves.begin(), of_waves.end(), factors_.begin(), 0.0));
+  }
+  return densities;
 }
 
 template <int dim>
@@ -155,6 +180,7 @@ double resistance_beyond(std::span<const double> by_harmonic) {
   template decltype(loss_factors<dim>) loss_factors<dim>;         \
   template decltype(forces_by_energy<dim>) forces_by_energy<dim>; \
   template class LossDensity<dim>;                                \
+  template class LossOfTurn<dim>;                                 \
   template decltype(resistance_of_layers<dim>) resistance_of_layers<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

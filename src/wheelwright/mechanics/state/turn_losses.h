@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "wheelwright/mechanics/state/state.h"
+#include "wheelwright/mechanics/state/material_integral.h"
 
 namespace wheelwright {
 
@@ -39,12 +39,28 @@ class LossDensity : public MaterialDensity<dim> {
   void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
   void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
               const StressRows<dim>& slopes) const override;
+  /// slopes() with all factors 1, in half of the time.
+  void slopes_of_sum(const StrainsAtPoint<dim>& point, const StressRows<dim>& slopes) const;
   bool covers(const PolarGrid<dim>& grid, int row) const override;
 
  private:
   Materials<dim> materials_;
   int layer_;
   Matrix filter_;  ///< over pairs of load cases: force by the energy of one strain in the stress of the other
+};
+
+/// The same in a layer of a given loss factor, summed over the load cases.
+template <int dim>
+class LossOfTurn {
+ public:
+  LossOfTurn(const RollingModel<dim>& model, double loss_factor);
+
+  /// At the points of a cell [N/m^3].
+  std::vector<double> densities(const StrainedCell<dim>& cell) const;
+
+ private:
+  Matrix waves_;                 ///< TurnHarmonics::waves()
+  std::vector<double> factors_;  ///< force by the energy of a wave
 };
 
 /// The force by layers of the model's materials, from the rim to the tread, and by harmonics of the turn, 0

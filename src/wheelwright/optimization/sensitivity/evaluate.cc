@@ -105,6 +105,8 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
     result.value.value += weight * term.of_shape;
     for (size_t q = 0; q < term.gradient_of_shape.size(); ++q)
       result.value.gradient[q] += weight * term.gradient_of_shape[q];
+    for (size_t q = 0; q < term.edge_gradient_of_shape.size(); ++q)
+      result.value.edge_gradient[q] += weight * term.edge_gradient_of_shape[q];
     for (size_t k = 0; k < term.by_radius_of_shape.size(); ++k)
       result.value.by_radius[k] += weight * term.by_radius_of_shape[k];
     std::vector<double> factors(positions.size(), weight);

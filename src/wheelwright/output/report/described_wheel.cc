@@ -9,6 +9,7 @@
 
 #include "wheelwright/cad/outline/fit_outline.h"
 #include "wheelwright/mechanics/state/layer_measures.h"
+#include "wheelwright/output/report/heat_report.h"
 #include "wheelwright/quantities/functionals/quantities.h"
 
 namespace wheelwright {
@@ -132,14 +133,28 @@ Number of_fatigue(const DescribedWheel<dim>& wheel, const Value& value) {
   });
 }
 
+/// A value of the heat results, if they are known.
+template <int dim, class Value>
+Number of_heat(const DescribedWheel<dim>& wheel, const Value& value) {
+  return under_load(wheel, [&](const LoadedWheel<dim>& loaded) -> Number {
+    if (!loaded.heat) return {};
+    if (!*loaded.heat) return to_string(loaded.heat->failure());
+    return value(**loaded.heat);
+  });
+}
+
 template <int dim>
 Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const SolvedStates<dim>& states) {
   if (!states) return states.failure();
   RollingAnalysis rolling = rolling_analysis(solver, **states);
   const auto deformation = deformation_size<dim>(solver, psi, **states, rolling.deformations);
-  return LoadedWheel<dim>{shape_summary(solver, **states), std::move(rolling), deformation,
-                          rolling_losses(solver, psi, **states), fatigue_results(solver, psi, **states)};
+  return LoadedWheel<dim>{shape_summary(solver, **states),
+                          std::move(rolling),
+                          deformation,
+                          rolling_losses(solver, psi, **states),
+                          fatigue_results(solver, psi, **states),
+                          heat_results(solver, psi, **states)};
 }
 
 template <int dim>
@@ -235,6 +250,14 @@ std::vector<std::string> load_cases_of(const DescribedWheel<dim>& wheel) {
   if (!wheel.load_case.empty()) names.push_back(wheel.load_case);
   for (const DescribedWheel<dim>& other : wheel.others) names.push_back(other.load_case);
   return names;
+}
+
+template <int dim>
+std::vector<std::string> too_warm(const DescribedWheel<dim>& wheel) {
+  if (!wheel.loaded || !wheel.loaded->heat || !*wheel.loaded->heat) return {};
+  std::vector<std::string> layers;
+  for (const LayerResults& layer : wheel.loaded->rolling.layers) layers.push_back(layer.name);
+  return too_warm(**wheel.loaded->heat, layers);
 }
 
 template <int dim>
@@ -400,6 +423,19 @@ std::vector<WheelNumber<dim>> numbers_of_fatigue(const std::optional<PartOfRing>
            as_extreme}};
 }
 
+/// Of wheels that say how warm they get.
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of_heat() {
+  using Wheel = DescribedWheel<dim>;
+  return {number<dim>("peak_temperature",
+                      [](const Wheel& w) {
+                        return of_heat(w, [](const HeatResults& h) { return h.peak.temperature; });
+                      }),
+          {"heat of the rolling wheel", UnitKind::power, "heat_W", [](const Wheel& w) {
+             return of_heat(w, [&](const HeatResults& h) { return h.heat * width(w); });
+           }}};
+}
+
 /// How far the wheel is from what linear elasticity assumes, besides its largest strain.
 template <int dim>
 std::vector<WheelNumber<dim>> numbers_of_deformation() {
@@ -446,8 +482,9 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
         number<dim>("mass", [](const Wheel& w) -> Number {
           return w.mass ? Number(*w.mass * width(w)) : std::nullopt;
         })};
-    for (const auto& more : {numbers_under_load<dim>(), numbers_of_losses<dim>(), numbers_of_fatigue<dim>(),
-                             numbers_of_deformation<dim>(), numbers_of_outline<dim>()})
+    for (const auto& more :
+         {numbers_under_load<dim>(), numbers_of_losses<dim>(), numbers_of_fatigue<dim>(),
+          numbers_of_heat<dim>(), numbers_of_deformation<dim>(), numbers_of_outline<dim>()})
       all.insert(all.end(), more.begin(), more.end());
     return all;
   }();
@@ -473,8 +510,17 @@ std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer) {
       return k ? Number(losses.by_layer[*k] * width(wheel)) : std::nullopt;
     });
   };
+  const auto temperature = [layer](const DescribedWheel<dim>& wheel) {
+    return of_heat(wheel, [&](const HeatResults& heat) -> Number {
+      const auto& layers = wheel.loaded->rolling.layers;
+      const auto found = std::ranges::find(layers, layer, &LayerResults::name);
+      if (found == layers.end()) return {};
+      return heat.by_layer[found - layers.begin()].temperature;
+    });
+  };
   std::vector<WheelNumber<dim>> numbers{
       number<dim>(in_part(built_in("rolling_resistance"), {layer, 0, 0}), resistance),
+      number<dim>(in_part(built_in("peak_temperature"), {layer, 0, 0}), temperature),
       of_layer("mass", [](const LayerResults& l,
                           double width) { return l.mass ? std::optional(*l.mass * width) : std::nullopt; }),
       of_layer("peak_von_mises",
@@ -557,6 +603,7 @@ template decltype(load_cases_of<3>) load_cases_of<3>;
 template decltype(outline_measures<2>) outline_measures<2>;
 template decltype(roughness<2>) roughness<2>;
 template decltype(known_value<2>) known_value<2>;
+template std::vector<std::string> too_warm(const DescribedWheel<2>&);
 template decltype(wheel_numbers<2>) wheel_numbers<2>;
 template decltype(layer_numbers<2>) layer_numbers<2>;
 template decltype(numbers_of<2>) numbers_of<2>;
@@ -568,6 +615,7 @@ template decltype(under_load_case<3>) under_load_case<3>;
 template decltype(outline_measures<3>) outline_measures<3>;
 template decltype(roughness<3>) roughness<3>;
 template decltype(known_value<3>) known_value<3>;
+template std::vector<std::string> too_warm(const DescribedWheel<3>&);
 template decltype(wheel_numbers<3>) wheel_numbers<3>;
 template decltype(layer_numbers<3>) layer_numbers<3>;
 template decltype(numbers_of<3>) numbers_of<3>;

@@ -16,6 +16,7 @@
 #include "wheelwright/quantities/analysis/discretization_error.h"
 #include "wheelwright/quantities/analysis/fatigue_damage.h"
 #include "wheelwright/quantities/analysis/fatigue_results.h"
+#include "wheelwright/quantities/analysis/heat_results.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
@@ -31,6 +32,7 @@ struct LoadedWheel {
   DeformationSize deformation;
   std::optional<Expected<RollingLosses>> losses = {};    ///< rolling_losses()
   std::optional<Expected<FatigueResults>> fatigue = {};  ///< fatigue_results()
+  std::optional<Expected<HeatResults>> heat = {};        ///< heat_results()
 };
 
 /// Measurements on the curves fitted to the edges of a shape. Nothing when dim = 3, where edges are not plane
@@ -152,6 +154,10 @@ std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer);
 /// The numbers of wheels, those of the wheel's layers, and the wheel's own ones.
 template <int dim>
 std::vector<WheelNumber<dim>> numbers_of(const DescribedWheel<dim>& wheel);
+
+/// One sentence for every material that gets warmer than it may while the wheel rolls.
+template <int dim>
+std::vector<std::string> too_warm(const DescribedWheel<dim>& wheel);
 
 /// In SI units, on the whole width; nothing if the wheel has no such number, for whatever reason.
 template <int dim>

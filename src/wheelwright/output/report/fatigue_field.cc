@@ -60,11 +60,12 @@ ValuesOfCells utilizations(const StateSolver<dim>& solver, const State<dim>& sta
   ValuesOfCells values(grid.n_cells());
   for (int cell = 0; cell < grid.n_cells(); ++cell) {
     if (!state.domain().active(cell)) continue;
-    const MaterialLaw<dim>& law = model.materials.in_row(grid, grid.cell_position(cell)[0]);
+    const auto place = grid.cell_position(cell);
+    const MaterialLaw<dim>& law = model.materials.in_row(grid, place[0]);
     const Matrix strains = by_load_case(state.displacement().strains(cell, nodes));
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const StrainsAtPoint<dim> point{strain_columns<dim>(strains, n_strains<dim> * static_cast<int>(a)),
-                                      grid.n_sectors, law};
+                                      grid.n_sectors, law, place, nodes[a]};
       values[cell].push_back(PointUtilization<dim>(point).value());
     }
   }

@@ -10,6 +10,7 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/report/damage_by_load_case.h"
+#include "wheelwright/output/report/heat_report.h"
 #include "wheelwright/output/report/linear_theory_json.h"
 #include "wheelwright/output/report/pass_report.h"
 #include "wheelwright/output/report/value_with_error.h"
@@ -518,6 +519,21 @@ std::string fatigue_lines(const RollingReport& report) {
   return lines;
 }
 
+/// Null if they are not known.
+const HeatResults* heat(const std::optional<Expected<HeatResults>>& known) {
+  return known && *known ? &**known : nullptr;
+}
+
+HeatContext heat_context(const RollingReport& report) {
+  HeatContext context{
+      .layers = {}, .width_factor = forces(report), .dimension = report.dimension, .error = {}};
+  for (const LayerResults& layer : report.analysis.layers) context.layers.push_back(layer.name);
+  if (const HeatResults* on_finer = finer(report) ? heat(finer(report)->heat) : nullptr)
+    context.error = discretization_error(heat(report.heat)->peak.temperature, on_finer->peak.temperature,
+                                         finer(report)->refinement, Converges::as_an_extreme);
+  return context;
+}
+
 double mean_travel_under(const RollingReport& report, size_t load) {
   return travel_variation(*report.under_loads[load]).mean;
 }
@@ -745,6 +761,7 @@ std::string rolling_table(const RollingReport& report) {
   table += stress_line(report) + linear_theory_lines(report);
   if (losses(report.losses)) table += losses_line(report);
   table += fatigue_lines(report);
+  if (heat(report.heat)) table += heat_lines(*heat(report.heat), heat_context(report));
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   if (report.accurate) table += '\n' + accuracy_table(*report.accurate);
@@ -787,6 +804,8 @@ std::string rolling_json(const RollingReport& report) {
     json["fatigue_in_all_load_cases"] = fatigue_json(report, *found, &FinerReport::damage);
   if (report.damage && !*report.damage)
     json["missing"]["fatigue_in_all_load_cases"] = to_string(report.damage->failure());
+  if (heat(report.heat)) json["heat"] = heat_json(*heat(report.heat), heat_context(report));
+  if (report.heat && !*report.heat) json["missing"]["heat"] = to_string(report.heat->failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
   if (!report.pass.empty()) json["pass"] = pass_json(report);
   if (report.accurate) json["accuracy"] = accuracy_json(*report.accurate);

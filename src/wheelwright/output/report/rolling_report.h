@@ -9,6 +9,7 @@
 #include "wheelwright/quantities/analysis/fatigue_damage.h"
 #include "wheelwright/quantities/analysis/fatigue_results.h"
 #include "wheelwright/quantities/analysis/ground_pass.h"
+#include "wheelwright/quantities/analysis/heat_results.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 
@@ -22,6 +23,7 @@ struct FinerReport {
   std::optional<Expected<RollingLosses>> losses = {};
   std::optional<Expected<FatigueResults>> fatigue = {};
   std::optional<Expected<FatigueDamage>> damage = {};
+  std::optional<Expected<HeatResults>> heat = {};
 };
 
 /// The analysis of one shape. Forces are shown on the whole width.
@@ -38,6 +40,7 @@ struct RollingReport {
   std::optional<AccurateNumbers> accurate = {};          ///< if an accuracy was wanted
   std::optional<Expected<RollingLosses>> losses = {};    ///< if the loss factors are known
   std::optional<Expected<FatigueResults>> fatigue = {};  ///< if the fatigue strengths are known
+  std::optional<Expected<HeatResults>> heat = {};        ///< if temperatures are known
   double outer_radius = 0;                               ///< R_e, for lives as distances [m]
   /// By all load cases of the wheel together, of these names, if their shares of the distance are known.
   std::optional<Expected<FatigueDamage>> damage = {};

@@ -7,6 +7,7 @@
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/report/cell_means.h"
 #include "wheelwright/output/report/fatigue_field.h"
+#include "wheelwright/output/report/temperature_picture.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 
 namespace wheelwright {
@@ -371,6 +372,7 @@ PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const S
                                          const LoadCases<dim>& cases) {
   PositionFields<dim> fields = position_fields(solver, state, most_stressed_position(state));
   fields.fatigue = fatigue_field(solver, state, cases);
+  fields.temperature = temperature_picture(solver, state);
   return fields;
 }
 
@@ -392,6 +394,8 @@ std::vector<NamedField> named_fields(const PositionFields<dim>& fields) {
                                  .field = fields.stress,
                                  .beside = {{von_mises_name, unit<dim>(UnitKind::stress), von_mises_of}}}};
   if (fields.fatigue) named.push_back(*fields.fatigue);
+  if (fields.temperature)
+    named.push_back({"temperature", unit<dim>(UnitKind::temperature), *fields.temperature});
   return named;
 }
 

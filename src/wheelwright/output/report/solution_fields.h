@@ -39,14 +39,15 @@ struct PositionFields {
   std::vector<ContactPoint> contact;
   DrawnPeak<dim> von_mises;
   LayerCircles layers = {};
-  std::optional<NamedField> fatigue = {};  ///< fatigue_field(), if it was asked for
+  std::optional<NamedField> fatigue = {};     ///< fatigue_field(), if it was asked for
+  std::optional<RingField> temperature = {};  ///< temperature_picture(), if it was asked for
 };
 
 template <int dim>
 PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<dim>& state, int position);
 
-/// The fields of the most_stressed_position(), with the fatigue of the turn, for pictures and files of one
-/// position; with load cases, of which the state is the first one's, the fatigue_field() of all.
+/// The fields of the most_stressed_position(), with fatigue and temperature of the turn, for pictures and
+/// files of one position; with load cases, of which the state is the first one's, the fatigue_field() of all.
 template <int dim>
 PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state,
                                          const LoadCases<dim>& cases = {});

@@ -60,6 +60,15 @@ DeformedPicture<dim> with_fatigue(DeformedPicture<dim> picture, NamedField utili
   return picture;
 }
 
+/// The same with the temperature of the rolling wheel instead.
+template <int dim>
+DeformedPicture<dim> with_temperature(DeformedPicture<dim> picture, const RingField& temperature) {
+  picture.scalar = {"temperature", unit<dim>(UnitKind::temperature), temperature};
+  picture.scale = ScaleKind::all;
+  picture.peak = {};
+  return picture;
+}
+
 }  // namespace
 
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
@@ -77,6 +86,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   write("stress_contact.svg", contact);
   write("displacement.svg", with_displacement(stress));
   if (fields.fatigue) write("fatigue.svg", with_fatigue(stress, *fields.fatigue));
+  if (fields.temperature) write("temperature.svg", with_temperature(stress, *fields.temperature));
   write_atomically(folder / (names.prefix + "mesh.svg"), mesh_svg(shape, domain, names.title, fields.layers));
 }
 
@@ -90,6 +100,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   write("stress.svg", stress);
   write("displacement.svg", with_displacement(stress));
   if (fields.fatigue) write("fatigue.svg", with_fatigue(stress, *fields.fatigue));
+  if (fields.temperature) write("temperature.svg", with_temperature(stress, *fields.temperature));
   write_atomically(folder / (names.prefix + "pressure.svg"),
                    pressure_map_svg(names.title, shape.lattice.grid(), fields.contact));
 }

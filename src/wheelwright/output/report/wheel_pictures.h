@@ -17,8 +17,8 @@ struct PictureNames {
 
 /// Draws a solved shape in its most_stressed_position(): PREFIXstress.svg, PREFIXstress_contact.svg (the
 /// contact at true scale, with its pressure), PREFIXdisplacement.svg (towards the ground) and PREFIXmesh.svg
-/// (the cut grid, `domain`), and PREFIXfatigue.svg if fields have it. In pictures of the whole wheel the
-/// displacement is magnified. Throws OutputError.
+/// (the cut grid, `domain`), and PREFIXfatigue.svg and PREFIXtemperature.svg if fields have them. In pictures
+/// of the whole wheel the displacement is magnified. Throws OutputError.
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
                           const PositionFields<2>& fields);

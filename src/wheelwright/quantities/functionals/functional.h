@@ -15,6 +15,8 @@ struct FunctionalValue {
   /// empty: zero.
   double of_shape = 0;
   std::vector<double> gradient_of_shape = {};
+  /// The density at State::edges(), where the moving boundary meets the side faces; empty: zero.
+  std::vector<double> edge_gradient_of_shape = {};
   /// Its derivatives with respect to the radii of the model's design lines, as ShapeGradients::by_radius;
   /// empty: zero.
   std::vector<double> by_radius_of_shape = {};

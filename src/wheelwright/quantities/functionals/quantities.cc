@@ -10,6 +10,7 @@
 #include "wheelwright/quantities/functionals/material_volume.h"
 #include "wheelwright/quantities/functionals/over_positions.h"
 #include "wheelwright/quantities/functionals/peak_pressure.h"
+#include "wheelwright/quantities/functionals/peak_temperature.h"
 #include "wheelwright/quantities/functionals/peak_von_mises.h"
 #include "wheelwright/quantities/functionals/perimeter.h"
 #include "wheelwright/quantities/functionals/quotient.h"
@@ -286,6 +287,23 @@ std::vector<QuantityRow> fatigue_rows() {
            .has_parts = true}};
 }
 
+/// How warm the rolling wheel gets.
+std::vector<QuantityRow> heat_rows() {
+  constexpr auto peak = []<int dim>(const QuantityContext<dim>& context) {
+    return std::make_shared<const PeakTemperature<dim>>(context.part);
+  };
+  return {{.name = "peak_temperature",
+           .unit = UnitKind::temperature,
+           .meaning = "highest steady temperature of the rolling wheel",
+           .label = "peak temperature",
+           .of = Positions::all,
+           .functional = peak,
+           .needs = {Input::speed, Input::all_loss_factors, Input::conductivity, Input::cooling},
+           .depends_on_heat = true,
+           .is_maximum = true,
+           .has_parts = true}};
+}
+
 /// How the wheel varies while it rolls: the travel at a held load, the force at a held travel.
 std::vector<QuantityRow> variation_rows() {
   return {{.name = "run_out_harmonic",
@@ -341,7 +359,7 @@ const std::vector<Quantity>& built_in_quantities() {
   static const std::vector<Quantity> all = [] {
     std::vector<Quantity> quantities;
     for (const auto& rows : {objective_rows(), measure_rows(), material_rows(), rim_rows(), loss_rows(),
-                             fatigue_rows(), variation_rows(), outline_rows()})
+                             heat_rows(), fatigue_rows(), variation_rows(), outline_rows()})
       for (const QuantityRow& row : rows) quantities.emplace_back(row);
     return quantities;
   }();

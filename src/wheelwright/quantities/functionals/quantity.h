@@ -39,6 +39,10 @@ enum class Input {
   density,            ///< of the material
   loss_factor,        ///< of the material
   fatigue_limit,      ///< of the material
+  all_loss_factors,   ///< of every material, also outside of the quantity's part
+  conductivity,       ///< of every material
+  cooling,            ///< something that takes the heat
+  speed,              ///< of the axle
   load,               ///< a force on the rim
   travel,             ///< a prescribed travel of the rim in place of the load
   horizontal_force,   ///< on the rim
@@ -149,6 +153,7 @@ struct QuantityRow {
   bool compares_with_mean = false;      ///< with the mean contact stress: a uniformity
   bool observes_annulus = false;        ///< the tractions in the annulus at the tread
   bool integrates_stresses = false;     ///< over the material
+  bool depends_on_heat = false;         ///< it is a temperature
   bool is_amount_of_material = false;   ///< so that a run that optimizes it does not hold the volume
   bool is_maximum = false;        ///< over points or positions: it has the gradient of a smooth approximation
   bool is_larger_better = false;  ///< where designs are ranked by it

@@ -116,8 +116,8 @@ std::vector<FunctionValue> read_functions(ByteReader& reader) {
     bounds.lower = reader.number();
     bounds.upper = reader.number();
     edge_gradient = reader.finite_numbers("the gradient of a function at the edges");
-    unit = static_cast<UnitKind>(
-        reader.integer(0, static_cast<int>(UnitKind::distance), "the unit of a function"));
+    unit =
+        static_cast<UnitKind>(reader.integer(0, static_cast<int>(UnitKind::power), "the unit of a function"));
     by_radius = reader.finite_numbers("the derivatives of a function with respect to radii");
   });
 }

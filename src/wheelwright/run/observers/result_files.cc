@@ -14,6 +14,7 @@
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/output/report/surface_vtp.h"
 #include "wheelwright/output/report/svg.h"
+#include "wheelwright/output/report/temperature_picture.h"
 #include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/results/given_wheel.h"
@@ -120,6 +121,7 @@ void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>
   if (shown.position != most_stressed_position(solution)) return;
   PositionFields<dim> worst = shown.fields;
   worst.fatigue = fatigue_field(*shown.ended.solver, solution, run.study.load_cases);
+  worst.temperature = temperature_picture(*shown.ended.solver, solution);
   write_surface(run, shape, worst);
   write_wheel_pictures(run.folder,
                        {.prefix = "",

@@ -158,6 +158,7 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary, co
   if (wheel.loaded)
     if (const auto warning = deformation_warning(wheel.loaded->deformation); !warning.empty())
       result.push_back(warning);
+  for (const std::string& warning : too_warm(wheel)) result.push_back(warning + ".");
   if (wheel.outline)
     for (const std::string& warning : feature_warnings(c, *wheel.outline)) result.push_back(warning);
   if (!of_roughness.empty()) result.push_back(of_roughness);

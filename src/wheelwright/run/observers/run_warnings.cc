@@ -27,6 +27,7 @@ std::vector<RunWarning> of_result(const RunSummary<dim>& summary, const RunView<
   const DescribedWheel<dim>& wheel = summary.after.wheel;
   std::vector<std::string> texts;
   if (wheel.loaded) texts.push_back(deformation_warning(wheel.loaded->deformation));
+  for (std::string& warning : too_warm(wheel)) texts.push_back(std::move(warning));
   if (wheel.outline)
     for (std::string& warning : feature_warnings(c, *wheel.outline)) texts.push_back(std::move(warning));
   texts.push_back(roughness_warning(c, roughness(wheel), roughness(summary.before.wheel)));

@@ -82,6 +82,7 @@ RollingModel<dim> rolling_model(const Case& c) {
       std::ranges::any_of(single, [](const Case& each) { return each.load.speed != 0; });
   model.n_positions = c.load.positions;
   model.design_lines = design_lines(c);
+  model.cooling = cooling(c);
   return model;
 }
 

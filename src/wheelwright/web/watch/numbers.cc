@@ -38,6 +38,7 @@ Json warnings_json(const Case& c, const DescribedWheel<dim>& before, const Descr
   if (now.loaded)
     if (auto text = deformation_warning(now.loaded->deformation); !text.empty())
       texts.push_back(std::move(text));
+  for (auto& text : too_warm(now)) texts.push_back(std::move(text));
   if (now.outline)
     for (auto& text : feature_warnings(c, *now.outline)) texts.push_back(std::move(text));
   if (auto text = roughness_warning(c, roughness(now), roughness(before)); !text.empty())
