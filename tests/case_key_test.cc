@@ -91,10 +91,10 @@ TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
 
 TEST(CaseKey, EveryMemberOfAnArrayHasAKey) {
   const CaseLoad l;
-  const auto& [name, weight, force, travel, along, torque, body, pressure, speed, ground, ground_radius,
-               ground_height, ground_place, ground_profile, own] = l;
-  expect_keys(l, name, weight, force, travel, along, torque, body, pressure, speed, ground, ground_radius,
-              ground_height, ground_place, ground_profile);
+  const auto& [name, weight, share, force, travel, along, torque, body, pressure, speed, ground,
+               ground_radius, ground_height, ground_place, ground_profile, own] = l;
+  expect_keys(l, name, weight, share, force, travel, along, torque, body, pressure, speed, ground,
+              ground_radius, ground_height, ground_place, ground_profile);
   const Constraint b;
   const auto& [bounded, layer, at_least, at_most, equals, over, load_case] = b;
   expect_keys(b, bounded, layer, at_least, at_most, equals, over, load_case);

@@ -49,11 +49,11 @@ class LossDensity : public MaterialDensity<dim> {
   Matrix filter_;  ///< over pairs of load cases: force by the energy of one strain in the stress of the other
 };
 
-/// The same in a layer of a given loss factor, summed over the load cases.
+/// The same in a layer of a given loss factor, at the model's speed, summed over the load cases.
 template <int dim>
 class LossOfTurn {
  public:
-  LossOfTurn(const RollingModel<dim>& model, double loss_factor);
+  LossOfTurn(const RollingModel<dim>& model, const LossFactor& loss_factor);
 
   /// At the points of a cell [N/m^3].
   std::vector<double> densities(const StrainedCell<dim>& cell) const;
