@@ -79,9 +79,8 @@ double error_of_derivative(const TaylorTest& test) {
   return test.remainders.back() / std::abs(test.derivative * test.steps.back());
 }
 
-/// The derivatives of strains and energies are exact. The smallest ball around the stresses of a point has a
-/// continuous radius slope, but its support changes from point to point, and the quadrature of a cut cell
-/// does not resolve where: its shape derivative is that of the boundary up to the error of the quadrature.
+/// The derivatives are exact up to the quadrature of the cut cells, which for Dang Van's measure is seen: the
+/// center of the path of the stresses changes fast from point to point.
 TEST(Fatigue, PassesTheTaylorTest) {
   for (const FatigueMeasure measure : all_measures)
     for (const Plane plane : {Plane::strain, Plane::stress}) {
@@ -89,12 +88,10 @@ TEST(Fatigue, PassesTheTaylorTest) {
       const auto model = lopsided_model(tired(measure, plane));
       const auto psi = generic_hole(model.grid);
       const TaylorTest test = tested<2>(model, psi, testing::smooth_direction(psi.lattice));
-      const bool is_smooth =
-          measure == FatigueMeasure::principal_strain || measure == FatigueMeasure::strain_energy;
-      if (is_smooth) {
+      if (measure != FatigueMeasure::dang_van) {
         for (const double order : test.orders) EXPECT_GT(order, 1.9);
       }
-      EXPECT_LT(error_of_derivative(test), measure == FatigueMeasure::dang_van ? 5e-3 : 5e-4);
+      EXPECT_LT(error_of_derivative(test), measure == FatigueMeasure::dang_van ? 1e-3 : 5e-4);
     }
 }
 
@@ -116,7 +113,8 @@ TEST(Fatigue, OfLayersPassesTheTaylorTest) {
                                    {0.29, std::make_shared<const OrthotropicLaw<2>>(band), "band"},
                                    {0.34, isotropic(FatigueMeasure::strain_energy), "tread"}}));
   const auto psi = generic_hole(model.grid);
-  EXPECT_LT(error_of_derivative(tested<2>(model, psi, testing::smooth_direction(psi.lattice))), 2e-3);
+  const TaylorTest test = tested<2>(model, psi, testing::smooth_direction(psi.lattice));
+  for (const double order : test.orders) EXPECT_GT(order, 1.9);
 }
 
 RollingModel<3> solid_model(int axial_cells) {
@@ -145,7 +143,7 @@ TEST(Fatigue, PassesTheTaylorTestIn3D) {
       direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(15 * p[2]));
     }
     EXPECT_LT(error_of_derivative(tested<3>(model, psi, direction)),
-              measure == FatigueMeasure::dang_van ? 1e-2 : 5e-4);
+              measure == FatigueMeasure::dang_van ? 2e-3 : 5e-4);
   }
 }
 

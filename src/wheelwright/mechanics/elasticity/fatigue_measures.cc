@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "wheelwright/base/integer_power.h"
-#include "wheelwright/mechanics/elasticity/smallest_ball.h"
+#include "wheelwright/mechanics/elasticity/smooth_ball.h"
 
 namespace wheelwright {
 namespace {
@@ -24,16 +24,22 @@ void add(double factor, const SymmetricTensor& t, SymmetricTensor& sum) {
   for (std::size_t k = 0; k < t.size(); ++k) sum[k] += factor * t[k];
 }
 
-/// An orthonormal basis of the deviators: |coordinates|^2 = s:s of the deviator s of a tensor.
+/// An orthonormal basis of the deviators: |coordinates|^2 = s:s of the deviator s of a tensor. The last two
+/// are 0 in the plane of a wheel.
 SmallestBall::Point deviator_coordinates(const SymmetricTensor& t) {
   const double s2 = std::sqrt(2.0), s6 = std::sqrt(6.0);
-  return {(t[0] - t[1]) / s2, (2 * t[2] - t[0] - t[1]) / s6, s2 * t[3], s2 * t[4], s2 * t[5]};
+  return {(t[0] - t[1]) / s2, (2 * t[2] - t[0] - t[1]) / s6, s2 * t[5], s2 * t[4], s2 * t[3]};
 }
 
 /// The derivative with respect to the tensor from that with respect to those coordinates.
 SymmetricTensor by_tensor(const SmallestBall::Point& x) {
   const double s2 = std::sqrt(2.0), s6 = std::sqrt(6.0);
-  return {x[0] / s2 - x[1] / s6, -x[0] / s2 - x[1] / s6, 2 * x[1] / s6, s2 * x[2], s2 * x[3], s2 * x[4]};
+  return {x[0] / s2 - x[1] / s6, -x[0] / s2 - x[1] / s6, 2 * x[1] / s6, s2 * x[4], s2 * x[3], s2 * x[2]};
+}
+
+/// Adds derivatives with respect to the coordinates of all tensors.
+void add(double factor, const std::vector<SmallestBall::Point>& by_coordinates, Slopes& sum) {
+  for (std::size_t j = 0; j < sum.size(); ++j) add(factor, by_tensor(by_coordinates[j]), sum[j]);
 }
 
 /// The deviator of these coordinates.
@@ -51,8 +57,8 @@ double size(const SymmetricTensor& t) {
 constexpr SymmetricTensor unit{1, 1, 1, 0, 0, 0};
 
 template <class Function>
-std::vector<double> of_each(TensorHistory history, Function function) {
-  std::vector<double> values;
+auto of_each(TensorHistory history, Function function) {
+  std::vector<decltype(function(history[0]))> values;
   for (const SymmetricTensor& t : history) values.push_back(function(t));
   return values;
 }
@@ -148,13 +154,19 @@ class DeviatorBall {
   /// `measure(radius)`: a bound of the measure by a bound of the radius.
   template <class Bound>
   DeviatorBall(TensorHistory stresses, double least, const Bound& measure) {
-    std::vector<SmallestBall::Point> points;
-    for (const SymmetricTensor& stress : stresses) points.push_back(deviator_coordinates(stress));
-    if (least <= 0 || measure(radius_about_mean(points)) >= least) ball_.emplace(points);
+    constexpr double of_smooth_radius = 1.0 / 64;  // SmoothBall
+    for (const SymmetricTensor& stress : stresses) points_.push_back(deviator_coordinates(stress));
+    const double most = std::pow(static_cast<double>(points_.size()), of_smooth_radius);
+    if (least <= 0 || measure(most * radius_about_mean(points_)) >= least) ball_.emplace(points_);
   }
 
   bool matters() const { return ball_.has_value(); }
-  const SmallestBall& ball() const { return *ball_; }
+  const SmallestBall& smallest() const { return *ball_; }
+  /// The one of the samples. Computed once it is asked for.
+  const SmoothBall& smooth() const {
+    if (!smooth_) smooth_.emplace(points_, *ball_);
+    return *smooth_;
+  }
 
  private:
   static double radius_about_mean(const std::vector<SmallestBall::Point>& points) {
@@ -170,7 +182,9 @@ class DeviatorBall {
     return std::sqrt(square);
   }
 
+  std::vector<SmallestBall::Point> points_;
   std::optional<SmallestBall> ball_;
+  mutable std::optional<SmoothBall> smooth_;
 };
 
 /// sqrt(3 J2)_a by the radius of the ball of the deviators.
@@ -219,13 +233,13 @@ class CrosslandHistory : public MeasuredHistory {
           return radius / std::sqrt(2.0) + pressure_factor * std::ranges::max(of_each(stresses, trace)) / 3;
         }) {}
 
-  double value() const override { return std::ranges::max(samples()); }
+  double value() const override {
+    return ball_.matters() ? std::ranges::max(with_radius(ball_.smallest().radius())) : 0;
+  }
 
   std::vector<double> samples() const override {
     if (!ball_.matters()) return std::vector<double>(stresses_.size(), 0.0);
-    const double amplitude = ball_.ball().radius() / std::sqrt(2.0);
-    return of_each(stresses_,
-                   [&](const SymmetricTensor& t) { return amplitude + pressure_factor_ * trace(t) / 3; });
+    return with_radius(ball_.smooth().radius());
   }
 
   Slopes slopes(std::span<const double> factors) const override {
@@ -234,12 +248,17 @@ class CrosslandHistory : public MeasuredHistory {
     for (std::size_t j = 0; j < factors.size(); ++j)
       result[j] = scaled(factors[j] * pressure_factor_ / 3, unit);
     const double of_radius = std::accumulate(factors.begin(), factors.end(), 0.0) / std::sqrt(2.0);
-    for (const auto& [sample, slope] : ball_.ball().slopes_of_radius())
-      add(of_radius, by_tensor(slope), result[sample]);
+    add(of_radius, ball_.smooth().slopes_of_radius(), result);
     return result;
   }
 
  private:
+  std::vector<double> with_radius(double radius) const {
+    const double amplitude = radius / std::sqrt(2.0);
+    return of_each(stresses_,
+                   [&](const SymmetricTensor& t) { return amplitude + pressure_factor_ * trace(t) / 3; });
+  }
+
   double pressure_factor_;
   TensorHistory stresses_;
   DeviatorBall ball_;
@@ -254,15 +273,12 @@ class DangVanHistory : public MeasuredHistory {
         // The shear stress about the center is at most the radius by sqrt(2).
         ball_(stresses, least, [&](double radius) {
           return radius / std::sqrt(2.0) + pressure_factor * std::ranges::max(of_each(stresses, trace)) / 3;
-        }) {
-    if (!ball_.matters()) return;
-    const SymmetricTensor center = deviator(ball_.ball().center());
-    for (const SymmetricTensor& stress : stresses_) about_center_.push_back(difference(stress, center));
-  }
+        }) {}
 
   double value() const override {
+    if (!ball_.matters()) return 0;
     double largest = -INFINITY;
-    for (const SymmetricTensor& stress : about_center_)
+    for (const SymmetricTensor& stress : about(ball_.smallest().center()))
       if (bound(stress) >= std::max(largest, least_)) {
         const auto principal = principal_values(stress);
         largest = std::max(largest, 0.5 * (principal[0] - principal[2]) + of_pressure(stress));
@@ -272,7 +288,7 @@ class DangVanHistory : public MeasuredHistory {
 
   std::vector<double> samples() const override {
     if (!ball_.matters()) return std::vector<double>(stresses_.size(), 0.0);
-    return of_each(about_center_, [&](const SymmetricTensor& stress) {
+    return of_each(about(ball_.smooth().center()), [&](const SymmetricTensor& stress) {
       return least_ > 0 && bound(stress) < least_
                  ? 0
                  : smooth_shear(principal_values(stress)).value + of_pressure(stress);
@@ -283,21 +299,26 @@ class DangVanHistory : public MeasuredHistory {
     Slopes result(stresses_.size(), SymmetricTensor{});
     if (!ball_.matters()) return result;
     SymmetricTensor all_shears{};
+    const Slopes about_center = about(ball_.smooth().center());
     for (std::size_t j = 0; j < stresses_.size(); ++j) {
       if (factors[j] == 0) continue;
-      const SymmetricTensor shear = by_tensor(factors[j], smooth_shear(principal_values(about_center_[j])),
-                                              about_center_[j]);  // a deviator
+      const SymmetricTensor shear = by_tensor(factors[j], smooth_shear(principal_values(about_center[j])),
+                                              about_center[j]);  // a deviator
       add(1, shear, all_shears);
       add(1, shear, result[j]);
       add(factors[j] * pressure_factor_ / 3, unit, result[j]);
     }
     for (int k = 3; k < 6; ++k) all_shears[k] /= 2;
-    for (const auto& [sample, slope] : ball_.ball().slopes_of_center(deviator_coordinates(all_shears)))
-      add(-1, by_tensor(slope), result[sample]);
+    add(-1, ball_.smooth().slopes_of_center(deviator_coordinates(all_shears)), result);
     return result;
   }
 
  private:
+  std::vector<SymmetricTensor> about(const SmallestBall::Point& center) const {
+    const SymmetricTensor tensor = deviator(center);
+    return of_each(stresses_, [&](const SymmetricTensor& stress) { return difference(stress, tensor); });
+  }
+
   // Of s - s* + p I, the stress less the center.
   double of_pressure(const SymmetricTensor& about_center) const {
     return pressure_factor_ * trace(about_center) / 3;
@@ -310,7 +331,6 @@ class DangVanHistory : public MeasuredHistory {
   TensorHistory stresses_;
   double least_;
   DeviatorBall ball_;
-  std::vector<SymmetricTensor> about_center_;
 };
 
 class GoodmanHistory : public MeasuredHistory {
@@ -329,31 +349,30 @@ class GoodmanHistory : public MeasuredHistory {
   double value() const override {
     if (!ball_.matters()) return 0;
     const auto [low, high] = std::ranges::minmax(traces_);
-    return of_mean(0.5 * (low + high)).value;
+    return of(ball_.smallest().radius(), 0.5 * (low + high)).value;
   }
 
   std::vector<double> samples() const override {
     if (!ball_.matters()) return std::vector<double>(traces_.size(), 0.0);
     const double mean = 0.5 * (smooth_maximum(traces_).value - smooth_maximum(negative(traces_)).value);
-    return std::vector<double>(traces_.size(), of_mean(mean).value);
+    return std::vector<double>(traces_.size(), of(ball_.smooth().radius(), mean).value);
   }
 
   Slopes slopes(std::span<const double> factors) const override {
     Slopes result(traces_.size(), SymmetricTensor{});
     if (!ball_.matters()) return result;
     const SmoothMaximum high = smooth_maximum(traces_), minus_low = smooth_maximum(negative(traces_));
-    const GoodmanValue measure = of_mean(0.5 * (high.value - minus_low.value));
+    const GoodmanValue measure = of(ball_.smooth().radius(), 0.5 * (high.value - minus_low.value));
     const double factor = std::accumulate(factors.begin(), factors.end(), 0.0);
     for (std::size_t j = 0; j < traces_.size(); ++j)
       result[j] = scaled(0.5 * factor * measure.by_mean * (high.slopes[j] + minus_low.slopes[j]), unit);
-    for (const auto& [sample, slope] : ball_.ball().slopes_of_radius())
-      add(factor * measure.by_amplitude * amplitude_by_radius, by_tensor(slope), result[sample]);
+    add(factor * measure.by_amplitude * amplitude_by_radius, ball_.smooth().slopes_of_radius(), result);
     return result;
   }
 
  private:
-  GoodmanValue of_mean(double mean) const {
-    return goodman(amplitude_by_radius * ball_.ball().radius(), mean, ultimate_strength_);
+  GoodmanValue of(double radius, double mean) const {
+    return goodman(amplitude_by_radius * radius, mean, ultimate_strength_);
   }
 
   double ultimate_strength_;

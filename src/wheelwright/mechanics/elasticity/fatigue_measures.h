@@ -39,6 +39,9 @@ struct LargestPrincipal {
   std::unique_ptr<const MeasuredHistory> of(TensorHistory strains, double least = 0) const;
 };
 
+// The samples of the last three are those of a ball that depends smoothly on the history (SmoothBall), their
+// values those of the smallest one.
+
 /// sqrt(J2)_a + alpha max p of stresses [Pa] (B. Crossland, Proc. Int. Conf. Fatigue of Metals, 1956): the
 /// radius of the smallest ball around the path of the stress deviators s, measured by sqrt(s:s / 2), and the
 /// largest hydrostatic stress p = tr(sigma) / 3.
