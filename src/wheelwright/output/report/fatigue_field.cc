@@ -130,7 +130,7 @@ std::optional<NamedField> fatigue_field(const StateSolver<dim>& solver, const St
     if (!next) return fatigue_field(solver, first);
     by_case.push_back(utilizations(solver, **next));
   }
-  return NamedField{"fatigue_utilization_in_all_load_cases", unit<dim>(UnitKind::ratio),
+  return NamedField{"fatigue_of_all_loads", unit<dim>(UnitKind::ratio),
                     mean_field(model, equivalent_utilizations(model, by_case, shares))};
 }
 

@@ -475,7 +475,7 @@ std::optional<double> error_of_utilization(const RollingReport& report, const Re
   const Results* on_finer = finer(report) ? fatigue(finer(report)->*results) : nullptr;
   if (!on_finer) return {};
   return discretization_error(worst_of(found, layer).utilization, worst_of(*on_finer, layer).utilization,
-                              finer(report)->refinement);
+                              finer(report)->refinement, Converges::as_an_extreme);
 }
 
 double kilometres(const RollingReport& report, double turns) {

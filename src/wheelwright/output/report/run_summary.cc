@@ -52,7 +52,7 @@ std::string places_of_fatigue(const DescribedWheel<dim>& wheel) {
   }
   if (wheel.damage && *wheel.damage) {
     const auto line = [&](const std::string& of, const FatigueDamage::Worst& worst) {
-      lines += fmt::format("under all load cases the damage of fatigue{} is largest at {}; {}\n", of,
+      lines += fmt::format("under all load cases fatigue{} is worst at {}; {}\n", of,
                            place_text<3>(worst.place), damage_text(worst, load_cases_of(wheel)));
     };
     line("", (*wheel.damage)->worst);
