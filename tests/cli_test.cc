@@ -363,6 +363,28 @@ TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
   EXPECT_EQ(functions, 2) << outcome.output;
 }
 
+// Radii that are unknowns are tested too, also where no hole could move.
+TEST_F(CommandLine, VerifyTestsTheDerivativesByRadii) {
+  std::ofstream(folder() / "layers.toml") << R"([[material.layer]]
+name = "core"
+outer_radius = 0.26
+outer_radius_range = [0.25, 0.28]
+youngs_modulus = 9e8
+poissons_ratio = 0.3
+[grid]
+radial_cells = 15
+angular_cells = 128
+[optimizer]
+rim_band = 0.02
+tread_band = 0.04
+)";
+  const Outcome outcome = wheelwright("verify layers.toml", folder());
+  EXPECT_EQ(outcome.code, exit_done) << outcome.output;
+  EXPECT_TRUE(std::regex_search(outcome.output,
+                                std::regex("objective, outer_radius of core .* (1\\.9|2\\.0)[0-9]*  passed")))
+      << outcome.output;
+}
+
 // Exploring a case that minimizes its mass once generated starts forever, and neither time nor a signal ended
 // it.
 TEST_F(CommandLine, ExploreStopsWhileGeneratingStarts) {

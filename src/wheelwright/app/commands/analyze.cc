@@ -62,6 +62,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
                        .finer = {}};
   report.losses = rolling_losses(solver, wheel.shape, solution);
   report.outer_radius = c.wheel.outer_radius;
+  report.is_ground_flat = solver.model().ground.is_flat();
   report.fatigue = fatigue_results(solver, wheel.shape, solution);
   report.damage = fatigue_damage(solver, wheel.shape, solution, all_loads, print_contact_progress());
   for (const auto& load_case : all_loads) report.load_cases.push_back(load_case.name);
@@ -215,8 +216,8 @@ class AnalyzeCommand : public Subcommand {
     RollingReport report = rolling_report(wheel, loads(), solver, **solved, all_loads);
     if (!without_errors_ || accuracy_)
       add_accuracy(with_levels_of(c, all), solver, shape, solved, all_loads, report);
+    if (pass_) report.pass = ground_pass<dim>(**solved, *parse_number_list(*pass_));
     print_report(report);
-    if (pass_) report_pass(**solved);
     const auto size = deformation_size<dim>(solver, shape, **solved, report.analysis.deformations);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       warn_about(wheel.name, warning);
@@ -243,23 +244,14 @@ class AnalyzeCommand : public Subcommand {
                               : without_control_characters(report.title) + "\n\n" + rolling_table(report));
   }
 
-  /// The ground's way below the wheel, as a table and a file.
-  template <int dim>
-  void report_pass(const State<dim>& states) const {
-    const auto pass = ground_pass<dim>(states, *parse_number_list(*pass_));
-    const double forces = whole_width(dim, states.model().grid.width);
-    if (!json_) print_lines(stdout, '\n' + pass_table(pass, forces));
-    if (!output_) return;
-    make_folder(folder());
-    write_atomically(folder() / "pass.csv", pass_csv(pass, forces));
-  }
-
   template <int dim>
   void write(const RollingReport& report, const LevelSet<dim>& shape, const StateSolver<dim>& solver,
              const State<dim>& states, const LoadCases<dim>& all_loads) const {
     make_folder(folder());
     write_plots(folder(), report);
     write_fields(folder(), report, shape, solver, states, all_loads);
+    if (!report.pass.empty())
+      write_atomically(folder() / "pass.csv", pass_csv(report.pass, whole_width(dim, report.width)));
     write_atomically(folder() / result_file, rolling_json(report));
   }
 

@@ -11,6 +11,7 @@
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/report/damage_by_load_case.h"
 #include "wheelwright/output/report/linear_theory_json.h"
+#include "wheelwright/output/report/pass_report.h"
 #include "wheelwright/output/report/value_with_error.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 
@@ -421,12 +422,13 @@ std::string linear_theory_lines(const RollingReport& report) {
   return fmt::format(
       "largest strain {} %, largest rotation {} deg\n"
       "error of linear theory, estimated: {} % of travel and stiffness: the real wheel is stiffer by "
-      "{:+.2g} % (rotation) +-{:.2g} % (strain) {:+.2g} % (bending)\n",
+      "{:+.2g} % (rotation) +-{:.2g} % (strain) {:+.2g} % (bending){}\n",
       with_known_error(std::ranges::max(a.peak_strain), largest_error("peak_strain", report), 100),
       with_known_error(rotation, largest_error("largest_rotation_rad", report), degree),
       with_known_error(worst.neglected.size(), largest_error("linear_theory_error", report), 100),
       100 * worst.neglected.of_rotation, 100 * std::abs(worst.neglected.of_strain),
-      100 * worst.neglected.of_bending);
+      100 * worst.neglected.of_bending,
+      report.is_ground_flat ? "" : "; what the shape of the ground adds is not in it");
 }
 
 /// Null if they are not known.
@@ -682,6 +684,27 @@ Json loads_json(const RollingReport& report) {
   return loads;
 }
 
+Json pass_json(const RollingReport& report) {
+  Json pass = Json::array();
+  for (const PassPlace& place : report.pass) {
+    Json json{{"moved_m", place.shift}};
+    if (!place.positions) {
+      json["missing"] = to_string(place.positions.failure());
+      pass.push_back(std::move(json));
+      continue;
+    }
+    Json& positions = json["positions"] = Json::array();
+    for (const ContactSummary& p : *place.positions)
+      positions.push_back({{"axle_raised_m", place.rise - p.descent},
+                           {"travel_m", p.travel},
+                           {"force_up_N", forces(report) * p.radial_force},
+                           {"force_along_N", forces(report) * p.friction_force},
+                           {"peak_pressure_Pa", p.peak_pressure}});
+    pass.push_back(std::move(json));
+  }
+  return pass;
+}
+
 /// The grid, and value, error and reason of each number by its key.
 Json accuracy_json(const AccurateNumbers& numbers) {
   Json json{{"accuracy", numbers.accuracy}, {"grid", numbers.grid}};
@@ -725,6 +748,7 @@ std::string rolling_table(const RollingReport& report) {
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   if (report.accurate) table += '\n' + accuracy_table(*report.accurate);
+  if (!report.pass.empty()) table += '\n' + pass_table(report.pass, forces(report));
   return table;
 }
 
@@ -764,6 +788,7 @@ std::string rolling_json(const RollingReport& report) {
   if (report.damage && !*report.damage)
     json["missing"]["fatigue_in_all_load_cases"] = to_string(report.damage->failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
+  if (!report.pass.empty()) json["pass"] = pass_json(report);
   if (report.accurate) json["accuracy"] = accuracy_json(*report.accurate);
   return json.dump(2) + '\n';
 }

@@ -349,6 +349,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .ground_azimuth = ground_azimuth(solver, position),
           .is_bonded = solver.model().contact.counterpart == Counterpart::ring,
           .ground = state.model().ground,
+          .camber = state.model().camber,
           .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,
           .travel = contact.travel(),
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,

@@ -32,6 +32,7 @@ struct PositionFields {
   double ground_azimuth;  ///< of n_y, body frame [rad]
   bool is_bonded;         ///< the tread to a rigid ring, instead of touching the ground
   Ground ground;          ///< its own mirror image if positions stand for their images
+  double camber;          ///< of the wheel on it; 0 when dim = 2 [rad]
   RimMotion rim;          ///< ground frame
   double travel;          ///< of the rim from where the rotating wheel without load touches the ground [m]
   RimForce rim_force;     ///< on the rim, per metre of width when dim = 2

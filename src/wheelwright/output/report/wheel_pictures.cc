@@ -27,6 +27,7 @@ DeformedPicture<dim> stress_picture(const PictureNames& names, const PositionFie
           .most_stressed_of = names.n_positions,
           .is_bonded = fields.is_bonded,
           .ground = fields.ground,
+          .camber = fields.camber,
           .window = {},
           .scalar = std::move(stress),
           .scale = ScaleKind::without_tail,
