@@ -76,8 +76,8 @@ struct MaterialLayer : OrthotropicConstants, FatigueConstants {
   std::optional<double> outer_radius = {};  ///< absent: the tread
   double youngs_modulus = 200e6;            ///< [Pa]
   double poissons_ratio = 0.48;
-  std::optional<double> density = {};      ///< [kg/m^3]
-  std::optional<double> loss_factor = {};  ///< tan(delta)
+  std::optional<double> density = {};  ///< [kg/m^3]
+  std::optional<LossFactor> loss_factor = {};
   LayerHoles holes = LayerHoles::allowed;
   /// Between which the optimizer chooses its radii together with the shape; absent: they stay [m].
   std::optional<std::array<double, 2>> inner_radius_range = {}, outer_radius_range = {};
@@ -95,6 +95,7 @@ struct MaterialCord {
 struct CaseLoad {
   std::string name = {};
   double weight = 1;                              ///< of its terms in the objective
+  std::optional<double> distance_share = {};      ///< of the distance, driven under it
   std::optional<double> force = {}, travel = {};  ///< at most one of them
   std::optional<double> horizontal_force = {}, torque = {};
   std::optional<std::array<double, 2>> body_force = {};

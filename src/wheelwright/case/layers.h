@@ -25,15 +25,17 @@ struct PlacedMaterial {
   double youngs_modulus() const;
   /// E* of Hertz's theory [Pa].
   double contact_modulus() const;
-  std::optional<double> density() const;        ///< [kg/m^3]
-  std::optional<double> loss_factor() const;    ///< tan(delta)
+  std::optional<double> density() const;  ///< [kg/m^3]
+  std::optional<LossFactor> loss_factor() const;
   std::optional<double> fatigue_limit() const;  ///< FatigueStrength::limit
+  std::optional<double> fatigue_exponent() const;
   /// The least share of a unit compliance: near 0 elements lock. 1 - 2 nu of an isotropic material in plane
   /// strain.
   double least_compliance() const;
 
   CaseKey youngs_modulus_key() const;
   CaseKey poissons_ratio_key() const;  ///< that of radius and azimuth of an orthotropic material
+  CaseKey loss_factor_key() const;
 };
 
 using OrthotropicConstant = std::optional<double> OrthotropicConstants::*;
@@ -111,6 +113,7 @@ bool has_density(const Case& c, const std::optional<PartOfRing>& part = {});
 /// The same of the loss factor.
 bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part = {});
 bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part = {});
+bool has_fatigue_exponent(const Case& c);
 
 /// The material at the tread.
 PlacedMaterial tread_material(const Case& c);

@@ -367,9 +367,10 @@ PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<
 }
 
 template <int dim>
-PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state) {
+PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state,
+                                         const LoadCases<dim>& cases) {
   PositionFields<dim> fields = position_fields(solver, state, most_stressed_position(state));
-  fields.fatigue = fatigue_field(solver, state);
+  fields.fatigue = fatigue_field(solver, state, cases);
   return fields;
 }
 
@@ -390,7 +391,7 @@ std::vector<NamedField> named_fields(const PositionFields<dim>& fields) {
                                  .unit = unit<dim>(UnitKind::stress),
                                  .field = fields.stress,
                                  .beside = {{von_mises_name, unit<dim>(UnitKind::stress), von_mises_of}}}};
-  if (fields.fatigue) named.push_back({"fatigue_utilization", unit<dim>(UnitKind::ratio), *fields.fatigue});
+  if (fields.fatigue) named.push_back(*fields.fatigue);
   return named;
 }
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <optional>
 
+#include "wheelwright/mechanics/state/load_case.h"
 #include "wheelwright/mechanics/state/ring_field.h"
-#include "wheelwright/mechanics/state/state.h"
 #include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/output/report/pressure_csv.h"
 #include "wheelwright/quantities/analysis/all_positions.h"
@@ -39,16 +39,17 @@ struct PositionFields {
   std::vector<ContactPoint> contact;
   DrawnPeak<dim> von_mises;
   LayerCircles layers = {};
-  std::optional<RingField> fatigue = {};  ///< fatigue_field(), if it was asked for
+  std::optional<NamedField> fatigue = {};  ///< fatigue_field(), if it was asked for
 };
 
 template <int dim>
 PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<dim>& state, int position);
 
 /// The fields of the most_stressed_position(), with the fatigue of the turn, for pictures and files of one
-/// position.
+/// position; with load cases, of which the state is the first one's, the fatigue_field() of all.
 template <int dim>
-PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state);
+PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state,
+                                         const LoadCases<dim>& cases = {});
 
 /// Calls visit(position, fields) for every load position of a sector, one after the other; images are
 /// reflected.
