@@ -950,6 +950,43 @@ class SolidPage(PageTest):
         self.assertFalse(self.watched.give({"do": "move_hole", "at_m": [0.26, 0], "by_m": [0, 0.01], "scale": 1})["executed"])
 
 
+class SolidOnGrounds(PageTest):
+    """The ground of a wheel in three dimensions is that of the load case, a transparent surface below it."""
+
+    case = SOLID_CASE + """
+[[load.case]]
+name = "flat"
+[[load.case]]
+name = "roller"
+ground = "drum"
+ground_radius = 0.2
+"""
+
+    def columns_of_ground(self):
+        """How wide the transparent part of the picture is."""
+        return self.browser.execute_script("""
+            const solid = document.getElementById("solid"), copy = document.createElement("canvas");
+            [copy.width, copy.height] = [solid.width, solid.height];
+            const context = copy.getContext("2d");
+            context.drawImage(solid, 0, 0);
+            const data = context.getImageData(0, 0, copy.width, copy.height).data, columns = new Set();
+            for (let k = 0; k < copy.width * copy.height; ++k)
+              if (data[4 * k + 3] > 60 && data[4 * k + 3] < 200) columns.add(k % copy.width);
+            return columns.size;""")
+
+    def test_a_roller_is_narrower_than_a_plane(self):
+        self.paused()
+        self.still()
+        width = {}
+        for k, name in enumerate(("flat", "roller", "flat")):
+            case = ("flat", "roller").index(name)
+            self.element(f"case-{case}").click()
+            self.until(lambda case=case: self.loaded("case") == str(case))
+            width[name, k] = self.columns_of_ground()
+        self.assertEqual(width["flat", 0], width["flat", 2])
+        self.assertTrue(0.3 * width["flat", 0] < width["roller", 1] < 0.85 * width["flat", 0], width)
+
+
 class Design(unittest.TestCase):
     """A wheel is designed using only the page, from a preset to a STEP file."""
 
