@@ -363,6 +363,28 @@ TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
   EXPECT_EQ(functions, 2) << outcome.output;
 }
 
+// Radii that are unknowns are tested too, also where no hole could move.
+TEST_F(CommandLine, VerifyTestsTheDerivativesByRadii) {
+  std::ofstream(folder() / "layers.toml") << R"([[material.layer]]
+name = "core"
+outer_radius = 0.26
+outer_radius_range = [0.25, 0.28]
+youngs_modulus = 9e8
+poissons_ratio = 0.3
+[grid]
+radial_cells = 15
+angular_cells = 128
+[optimizer]
+rim_band = 0.02
+tread_band = 0.04
+)";
+  const Outcome outcome = wheelwright("verify layers.toml", folder());
+  EXPECT_EQ(outcome.code, exit_done) << outcome.output;
+  EXPECT_TRUE(std::regex_search(outcome.output,
+                                std::regex("objective, outer_radius of core .* (1\\.9|2\\.0)[0-9]*  passed")))
+      << outcome.output;
+}
+
 // Exploring a case that minimizes its mass once generated starts forever, and neither time nor a signal ended
 // it.
 TEST_F(CommandLine, ExploreStopsWhileGeneratingStarts) {
@@ -697,6 +719,59 @@ TEST_F(CommandLine, ViolatedBoundExitsWithCode9) {
     const std::string text{std::istreambuf_iterator<char>(summary), {}};
     EXPECT_NE(text.find("\"stiffness\""), std::string::npos) << text;
   }
+}
+
+/// A wheel of two layers under two load cases, of which shares of the distance are driven.
+const std::string wheel_with_shares = small_case(1, R"(
+[material]
+youngs_modulus = 200e6
+poissons_ratio = 0.4
+fatigue_measure = "crossland"
+fatigue_limit = 2e6
+fatigue_pressure_factor = 0.3
+fatigue_exponent = 5
+[[material.layer]]
+name = "tyre"
+inner_radius = 0.305
+youngs_modulus = 60e6
+poissons_ratio = 0.4
+holes = "none"
+fatigue_measure = "principal_strain"
+fatigue_strain = 0.1
+fatigue_exponent = 3
+[[load.case]]
+name = "rolling"
+distance_share = 0.9
+[[load.case]]
+name = "heavy"
+distance_share = 0.1
+mass = 450
+)");
+
+TEST_F(CommandLine, TheLifeUnderAllLoadCasesIsInAllResults) {
+  std::ofstream(folder() / "wheel.toml") << wheel_with_shares;
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text.substr(0, 4000);
+  };
+  const Outcome run = wheelwright("run wheel.toml", folder());
+  ASSERT_EQ(run.code, exit_done) << run.output;
+  has(run.output, "fatigue life of tyre in all load cases");
+  has(run.output, "% by heavy");
+  const std::string summary = content(folder() / "run/summary.json");
+  for (const char* key : {"fatigue_life_m in all load cases", "fatigue_utilization of tyre in all load cases",
+                          "damage_by_load_case of tyre", "fatigue_place in all load cases"})
+    has(summary, key);
+  has(content(folder() / "run/report.html"), "fatigue life of tyre in all load cases");
+  has(content(folder() / "run/fatigue.svg"), "fatigue utilization in all load cases");
+  has(wheelwright("compare wheel.toml run --positions 2 --without-errors", folder()).output,
+      "fatigue life of tyre in all load cases");
+  const std::string analyze = "analyze wheel.toml --positions 2 --without-errors --output out",
+                    line = "fatigue utilization of tyre in all load cases";
+  has(wheelwright(analyze, folder()).output, line);
+  has(content(folder() / "out/analysis.json"), "fatigue_in_all_load_cases");
+  has(content(folder() / "out/fatigue.svg"), "fatigue utilization in all load cases");
+  EXPECT_EQ(wheelwright("analyze wheel.toml --positions 2 --load-case heavy", folder()).output.find(line),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 """Tests what programs that drive the program rely on: exit codes, JSON and events against their schemas in docs/schema.
 usage: driving_test.py PROGRAM, from the repository's top folder."""
 
+import csv
 import importlib.util
 import json
 import re
@@ -209,6 +210,23 @@ class Driving(unittest.TestCase):
         for undecided in comparison["within_errors"]:
             for key in undecided["numbers"]:
                 self.assertLessEqual(abs(first[key] - second[key]), first["errors"][key] + second["errors"][key], key)
+
+    def test_analyze_prints_the_same_pass_as_it_writes(self):
+        ground = 'ground = "kerb"\nground_height = 0.02\nground_radius = 0.005\nground_place = 0.05\n'
+        case, folder = self.write("kerb.toml", CASE.replace("[load]\n", f"[load]\n{ground}", 1)), self.folder / "pass"
+        told = run("analyze", case, "--positions", 2, "--pass=-0.02,0.03,5", "--without-errors", "--json", "--output", folder)
+        analysis = json.loads(told.stdout)
+        validator("analysis").validate(analysis)
+        self.assertEqual(analysis, json.loads((folder / "analysis.json").read_text()))
+        self.assertEqual([place["moved_m"] for place in analysis["pass"]], [-0.02, 0.03, 5])
+        rows = [{"moved_m": place["moved_m"], "position": k, **numbers}
+                for place in analysis["pass"] for k, numbers in enumerate(place["positions"])]
+        with open(folder / "pass.csv", encoding="utf-8") as file:
+            self.assertEqual(rows, [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)])
+        # The load is carried, and the kerb holds the wheel back, unless it is far away.
+        for row in rows:
+            self.assertAlmostEqual(row["force_up_N"], 2943, delta=1e-3)
+            self.assertEqual(abs(row["force_along_N"]) > 1, row["moved_m"] < 1)
 
 
 class Schemas(unittest.TestCase):

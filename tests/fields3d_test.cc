@@ -2,11 +2,15 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <numbers>
 #include <set>
 
+#include "wheelwright/mechanics/state/axle_height.h"
+#include "wheelwright/mechanics/state/ground_frame.h"
+#include "wheelwright/output/page/shown_ground.h"
 #include "wheelwright/output/report/lit_wheel.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/output/report/surface_vtp.h"
@@ -339,6 +343,124 @@ TEST(LitWheel, StandsOnTheGroundAndNothingIsBelow) {
     for (const Vec<3>& x : points) lowest = std::min(lowest, x[1]);
     EXPECT_NEAR(lowest, -grid.outer_radius, 2e-5);
   }
+}
+
+// --- A wheel that leans ---------------------------------------------------------------------------------
+
+struct Leaning {
+  Solved solved;
+  LevelSet<3> shape;
+};
+
+Leaning leaning(const Ground& ground) {
+  RollingModel<3> model = asymmetric_model(1);
+  model.torque = 0;
+  model.horizontal_force = 0;
+  model.camber = -0.04;
+  model.lateral_force = 150;
+  model.ground = ground;
+  const auto solver = make_solver(model);
+  EXPECT_TRUE(solver);
+  auto shape = asymmetric_shape(model.grid);
+  const auto states = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
+  EXPECT_TRUE(states) << states.failure().detail;
+  return {{*solver, *states}, std::move(shape)};
+}
+
+/// A place of the body frame in the frame of its ground, from the middle of the axle.
+Vec<3> on_ground(const RollingModel<3>& model, double azimuth, Vec<3> x) {
+  x[2] -= 0.5 * model.grid.width;
+  return GroundFrame{-azimuth, model.camber}.to_ground<3>(x);
+}
+
+/// On flat ground the gap is the exact height of the displaced point; on a drum the linear one differs by the
+/// square of the displacement over its radius. Tractions carry the load and the lateral force.
+TEST(LeaningWheel, TreadContactIsThatOnTheLeaningGround) {
+  for (const Ground& ground : {Ground(), Ground::drum(0.8)}) {
+    const Leaning wheel = leaning(ground);
+    const auto& [solver, state] = wheel.solved;
+    const RollingModel<3>& model = solver->model();
+    const double height = axle_height(model.grid, ground, model.camber);
+    const auto treads = all_tread_contacts(*solver, *state);
+    for (int position = 0; position < model.n_positions; ++position) {
+      const double azimuth = solver->all_positions().grounds[position].azimuth(model.grid);
+      Vec<3> force{};
+      double nearest = 1;
+      for (const auto& p : treads[position]) {
+        const Vec<3> undeformed = on_ground(model, azimuth, p.position);
+        nearest = std::min(nearest, ground.nearest({undeformed[1], height - undeformed[0]}).gap);
+        if (p.pressure > 0 || ground.is_flat()) {
+          const Vec<3> place = on_ground(model, azimuth, p.position + p.displacement);
+          EXPECT_NEAR(p.gap, ground.nearest({place[1], height - place[0]}).gap,
+                      ground.is_flat() ? 1e-12 : 2e-5);
+        }
+        force += p.weight * p.traction;
+      }
+      EXPECT_GT(nearest, 0);
+      EXPECT_LT(nearest, 0.001);  // points are inside of the cells
+      const Vec<3> in_frame = GroundFrame{-azimuth, model.camber}.to_ground<3>(force);
+      EXPECT_NEAR(in_frame[0], -model.load, 1e-6);
+      EXPECT_NEAR(in_frame[2], -model.lateral_force, 1e-6);
+    }
+  }
+}
+
+/// Also where displacements are magnified. An edge of the tread touches the ground.
+TEST(LeaningWheel, IsDrawnOnItsGround) {
+  for (const Ground& ground : {Ground(), Ground::drum(0.8)}) {
+    const Leaning wheel = leaning(ground);
+    const auto& [solver, state] = wheel.solved;
+    const RollingModel<3>& model = solver->model();
+    const PositionFields<3> fields = position_fields(*solver, *state, 1);
+    const SurfaceMesh surface = material_surface(wheel.shape, 2, 1);
+    const auto displacement =
+        field_points(surface, fields.lattice).values({"displacement", "m", fields.displacement});
+    const double height = axle_height(model.grid, ground, model.camber);
+    for (const double magnification : {0.0, 1.0, 20.0}) {
+      DeformedPicture<3> picture{};
+      picture.displacement = fields.displacement;
+      picture.magnification = magnification;
+      picture.contact_azimuth = fields.ground_azimuth;
+      picture.ground = fields.ground;
+      picture.camber = fields.camber;
+      double nearest = 1;
+      for (const Vec<3>& x : displaced(surface.points, displacement, fields.lattice, picture)) {
+        const Vec<3> place = on_ground(model, fields.ground_azimuth, x);
+        nearest = std::min(nearest, height - place[0] - ground.height(place[1]));
+      }
+      EXPECT_NEAR(nearest, 0, 1e-4) << magnification;
+      EXPECT_GT(nearest, -1e-9) << magnification;
+    }
+  }
+}
+
+/// The files for ParaView and the pages have the ground of the contact.
+TEST(LeaningWheel, ItsGroundIsInFilesAndPages) {
+  const Ground drum = Ground::drum(0.8);
+  const Leaning wheel = leaning(drum);
+  const auto& [solver, state] = wheel.solved;
+  const RollingModel<3>& model = solver->model();
+  const double height = axle_height(model.grid, drum, model.camber);
+  const PositionFields<3> fields = position_fields(*solver, *state, 1);
+  const auto shown = shown_ground(fields);
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->camber, model.camber);
+  for (const auto& [along, up] : shown->outline) EXPECT_NEAR(up, drum.height(along) - height, 1e-15);
+  const auto path = std::filesystem::temp_directory_path() / "wheelwright_leaning_ground.vtu";
+  write_ground_vtu(path, model.grid, fields.ground_azimuth, fields.ground, fields.camber);
+  std::ifstream stream(path, std::ios::binary);
+  const std::string file((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::filesystem::remove(path);
+  const auto x = array_of<float>(file, "Points");
+  int on_top = 0;
+  for (std::size_t k = 0; k < x.size(); k += 3) {
+    const Vec<3> place = on_ground(model, fields.ground_azimuth, {x[k], x[k + 1], x[k + 2]});
+    const double above = height - place[0] - drum.height(place[1]);
+    EXPECT_LT(above, 1e-6);
+    if (above > -1e-6) ++on_top;
+    EXPECT_NEAR(std::abs(place[2]), 0.5 * model.grid.width + 0.1 * model.grid.outer_radius, 1e-6);
+  }
+  EXPECT_EQ(on_top, int(x.size()) / 6);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ using testing::TakesAnyCase;
 std::vector<double> other_numbers(const Range& range, double now, double factor) {
   std::vector<double> numbers;
   for (const double x : {1.1 * now / factor, 0.5 * now / factor, 1.01 * now / factor, 0.001, 0.01, 0.1, 0.25,
-                         0.5, 1.5, 30.0, 1000.0})
+                         0.5, 1.0, 1.5, 30.0, 1000.0})
     if (range.contains(x) && x * factor != now) numbers.push_back(x * factor);
   return numbers;
 }
@@ -64,6 +64,9 @@ std::vector<Struct> variations_of(const Struct& s, const Field& field) {
     const std::vector<std::array<double, 2>> some{{-0.1, 0}, {0, 0.001}, {0.1, 0}};
     add(field.member.in(s).empty() ? some : field.member.in(s));
     field.member.in(result[0])[1][0] += 1e-3;
+  } else if constexpr (std::is_same_v<Field, LossFactorField<Struct>>) {
+    add(LossFactor({{1.0 / 30, 0.05}, {100, 0.12}}));
+    add(LossFactor(0.07));
   } else if constexpr (std::is_same_v<Field, QuantityField<Struct>>) {
     for (const Quantity& quantity : Quantities())
       if (quantity != field.member.in(s)) add(quantity);

@@ -15,11 +15,14 @@
 #include "tests/support.h"
 #include "wheelwright/base/periodic.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/write.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
 #include "wheelwright/mechanics/state/turn_harmonics.h"
 #include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 #include "wheelwright/quantities/functionals/quantities.h"
+#include "wheelwright/run/study/case_report.h"
 #include "wheelwright/shape/geometry/mirror.h"
 #include "wheelwright/shape/geometry/shapes.h"
 
@@ -178,11 +181,43 @@ double lost_in_time(const std::vector<double>& strains, double period,
   return work;
 }
 
-// E(omega) = E_0 + sum of E_k i omega tau / (1 + i omega tau): every harmonic loses 4 pi n tan(delta) W_n
-// with the loss factor at its frequency.
+TEST(LossFactor, IsLinearOverTheLogarithmOfTheFrequency) {
+  const LossFactor factor({{1, 0.05}, {100, 0.15}, {200, 0.1}});
+  EXPECT_EQ(factor.at(0), 0.05);
+  EXPECT_EQ(factor.at(1), 0.05);
+  EXPECT_NEAR(factor.at(10), 0.1, 1e-15);
+  EXPECT_EQ(factor.at(100), 0.15);
+  EXPECT_NEAR(factor.at(100 * std::sqrt(2)), 0.125, 1e-15);
+  EXPECT_EQ(factor.at(1e6), 0.1);
+  EXPECT_EQ(factor.largest(), 0.15);
+  EXPECT_EQ(LossFactor(0.3).at(17), 0.3);
+}
+
+/// E(omega) / E_0 = 1 + sum of E_k i omega tau / (1 + i omega tau).
+std::complex<double> relaxing_modulus(const std::vector<std::pair<double, double>>& branches,
+                                      double frequency) {
+  std::complex<double> modulus = 1;
+  for (const auto& [stiffness, time] : branches) {
+    const std::complex<double> x(0, 2 * pi * frequency * time);
+    modulus += stiffness * x / (1.0 + x);
+  }
+  return modulus;
+}
+
+/// Its loss factor as a table.
+LossFactor tabulated(const std::vector<std::pair<double, double>>& branches) {
+  std::vector<LossFactor::Point> table;
+  for (double frequency = 0.1; frequency < 1e4; frequency *= 1.002) {
+    const auto modulus = relaxing_modulus(branches, frequency);
+    table.push_back({frequency, modulus.imag() / modulus.real()});
+  }
+  return LossFactor(std::move(table));
+}
+
+// Every harmonic loses 4 pi n tan(delta) W_n with the loss factor at its frequency.
 TEST(RollingResistance, OfHarmonicsIsWhatARelaxingMaterialLosesInTime) {
   const std::vector<std::pair<double, double>> branches{{0.3, 0.02}, {0.2, 0.4}};
-  const double relaxed = 1, period = 1.3;
+  const double period = 1.3;
   const int n = 1 << 15;
   const TurnHarmonics turn(64, 8);
   const auto strain = [&](double t) {  // of a turn, with a contact that passes: smooth, and without symmetry
@@ -195,17 +230,18 @@ TEST(RollingResistance, OfHarmonicsIsWhatARelaxingMaterialLosesInTime) {
   for (int i = 0; i < 64; ++i)
     for (int s = 0; s < 8; ++s) history(i * 8 + s, 0) = strain((i / 64.0 - s) / 8);
   const Matrix amplitudes = product(turn.waves(), Op::transpose, history, Op::none);
-  double lost = 0;
+  std::vector<double> energies(turn.n_harmonics(), 0.0);
   for (int wave = 0; wave < turn.n_cases(); ++wave) {
     const int k = TurnHarmonics::harmonic(wave);
-    std::complex<double> modulus = relaxed;
-    for (const auto& [stiffness, time] : branches) {
-      const std::complex<double> x(0, 2 * pi * k / period * time);
-      modulus += stiffness * x / (1.0 + x);
-    }
-    const double energy = 0.5 * modulus.real() * amplitudes(wave, 0) * amplitudes(wave, 0) / turn.n_cases();
-    lost += 4 * pi * k * modulus.imag() / modulus.real() * energy;
+    energies[k] += 0.5 * relaxing_modulus(branches, k / period).real() * amplitudes(wave, 0) *
+                   amplitudes(wave, 0) / turn.n_cases();
   }
+  RollingModel<2> wheel = small_model();
+  wheel.distributed.angular_speed = 2 * pi / period;
+  const auto factors = loss_factors(wheel, turn.n_harmonics(), tabulated(branches));
+  const auto forces = forces_by_energy<2>(wheel.grid, factors);
+  const double lost = 2 * pi * wheel.grid.outer_radius *
+                      std::inner_product(energies.begin(), energies.end(), forces.begin(), 0.0);
   const double in_time = lost_in_time(fine, period, branches);
   EXPECT_NEAR(lost, in_time, 1e-6 * in_time);
 }
@@ -281,11 +317,69 @@ TEST(RollingResistance, CordsHaveNoLosses) {
   const auto psi = lopsided_holes(model.grid);
   const auto state = solved(*problem, psi);
   const auto& energy = state->energy_by_harmonic();
-  const auto by_energy = forces_by_energy(model.grid, static_cast<int>(energy.size()), 0.2);
+  const auto by_energy = forces_by_energy<2>(model.grid, std::vector<double>(energy.size(), 0.2));
   const double with_cords = std::inner_product(energy.begin(), energy.end(), by_energy.begin(), 0.0),
                found = resistance(*problem, psi);
   EXPECT_LT(found, 0.999 * with_cords);
   EXPECT_NEAR(total(resistance_of_layers<2>(*problem, *state)[0]), found, 1e-10 * found);
+}
+
+/// The layered wheel at a speed, with loss factors over the frequency.
+RollingModel<2> model_at_speed(const std::vector<LossFactor>& factors) {
+  auto model = layered_model();
+  std::vector<Materials<2>::Layer> layers = model.materials.layers();
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    Material material = *layers[k].law->isotropic();
+    material.loss_factor = factors[k];
+    layers[k].law = std::make_shared<IsotropicLaw<2>>(material);
+  }
+  model.materials = Materials<2>(std::move(layers));
+  model.contact.friction = 0.4;
+  model.torque = 200;
+  model.distributed.angular_speed = 40;
+  model.tread.observes_spin = true;
+  model.cut_points = 8;
+  return model;
+}
+
+/// One number at all frequencies has the same bytes as a table of equal numbers.
+TEST(RollingResistance, OfATableOfEqualFactorsIsThatOfTheNumber) {
+  const auto table = [](double number) { return LossFactor({{2, number}, {30, number}, {400, number}}); };
+  const auto number = model_at_speed({0.05, 0.0, 0.2}),
+             equal = model_at_speed({table(0.05), table(0), table(0.2)});
+  const auto problem = RollingProblem<2>::create(number);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const auto psi = lopsided_holes(number.grid);
+  const auto evaluated = [&](const RollingModel<2>& model) {
+    return evaluate<2>(*problem, std::vector<ShapeFunction<2>>{function("resistance", model)}, psi);
+  };
+  const auto of_number = evaluated(number), of_table = evaluated(equal);
+  ASSERT_TRUE(of_number && of_table);
+  const auto &a = of_number->evaluation.functions[0], &b = of_table->evaluation.functions[0];
+  EXPECT_EQ(a.value, b.value);
+  EXPECT_EQ(a.gradient, b.gradient);
+}
+
+const std::vector<LossFactor> factors_over_the_frequency{LossFactor({{1, 0.3}, {100, 0.02}}), 0.1,
+                                                         LossFactor({{5, 0.05}, {50, 0.1}, {500, 0.3}})};
+
+/// By harmonics, each with the loss factor at its frequency: as if it were the only number.
+TEST(RollingResistance, HasTheLossFactorOfEachHarmonic) {
+  const auto model = model_at_speed(factors_over_the_frequency);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const auto psi = lopsided_holes(model.grid);
+  const auto found = rolling_losses<2>(*problem, psi, *solved(*problem, psi));
+  const auto at_unit = RollingProblem<2>::create(model_at_speed({1.0, 1.0, 1.0}));
+  ASSERT_TRUE(found && *found && at_unit);
+  const auto unit = resistance_of_layers<2>(*at_unit, *solved(*at_unit, psi));
+  double expected = 0;
+  for (std::size_t n = 0; n < unit[0].size(); ++n)
+    for (const std::size_t layer : {0, 1, 2})
+      expected +=
+          unit[layer][n] * factors_over_the_frequency[layer].at(static_cast<double>(n) * 40 / (2 * pi));
+  EXPECT_NEAR((*found)->resistance, expected, 1e-12 * expected);
+  EXPECT_NEAR(resistance(*problem, psi), expected, 1e-9 * expected);
 }
 
 TEST(RollingResistance, IsThatOfAnyOtherSectorAndOfTheImage) {
@@ -419,6 +513,54 @@ TEST(RollingResistance, OfSeveralLoadsPassesTheTaylorTest) {
   kerb.distributed = {{2e4, 1e4}, 1e4, 80};
   const auto both = std::make_shared<RollingResistance<2>>(drive);
   expect_second_order(drive, {{"both", {{1, both, 0}, {0.4, both, 1}}}}, {{"drive", drive}, {"kerb", kerb}});
+}
+
+/// Each load has the frequencies of its own speed.
+TEST(RollingResistance, OverTheFrequencyPassesTheTaylorTest) {
+  const auto drive = model_at_speed(factors_over_the_frequency);
+  auto slow = drive;
+  slow.distributed.angular_speed = 3;
+  slow.load *= 1.5;
+  const auto both = std::make_shared<RollingResistance<2>>(drive);
+  expect_second_order(drive, {{"both", {{1, both, 0}, {0.4, both, 1}}}}, {{"drive", drive}, {"slow", slow}});
+  const auto problem = RollingProblem<2>::create(drive), of_slow = RollingProblem<2>::create(slow);
+  ASSERT_TRUE(problem && of_slow);
+  const auto psi = lopsided_holes(drive.grid);
+  const auto state = solved(*problem, psi)->under(slow, Interrupt());
+  ASSERT_TRUE(state);
+  const double expected = resistance(*of_slow, psi);
+  EXPECT_NEAR(*both->evaluate(*problem, psi, **state, {}).over_positions, expected, 1e-9 * expected);
+}
+
+/// What a case file says, and `check` about it.
+TEST(RollingResistance, OverTheFrequencyNeedsASpeed) {
+  const auto read = [](const std::string& table, const std::string& load) {
+    return parse_case(
+        "[material]\ndensity = 1100\nloss_factor = " + table + "\n[load]\nforce = 2000\n" + load,
+        "case.toml");
+  };
+  const std::string table = "[[2, 0.05], [300, 0.12]]";
+  const auto good = read(table, "speed = 5\n");
+  ASSERT_TRUE(good.value) << good.problems.front().text();
+  EXPECT_EQ(good.value->material.loss_factor, LossFactor({{2, 0.05}, {300, 0.12}}));
+  EXPECT_EQ(*parse_case(to_toml(*good.value), "case.toml").value, *good.value);
+  EXPECT_NE(derived_report(*good.value).find("2.34 Hz (turn)"), std::string::npos)
+      << derived_report(*good.value);
+  const auto warns = [&](const CaseResult& result) {
+    return std::ranges::any_of(warnings(*result.value), [](const std::string& text) {
+      return text.starts_with("material.loss_factor is given from 2 to 300 Hz");
+    });
+  };
+  EXPECT_FALSE(warns(good));
+  EXPECT_TRUE(warns(read(table, "speed = 1\n")));
+  EXPECT_EQ(read(table, "").problems.size(), 1);
+  EXPECT_EQ(read("[[300, 0.05], [2, 0.12]]", "speed = 5\n").problems.size(), 1);
+  EXPECT_EQ(read("[[2, 0.05]]", "speed = 5\n").problems.size(), 1);
+  EXPECT_EQ(read("[[0, 0.05], [2, 0.12]]", "speed = 5\n").problems.size(), 1);
+  EXPECT_EQ(read("[2, 0.05]", "speed = 5\n").problems.size(), 1);
+  EXPECT_TRUE(read("0.1", "").value);
+  EXPECT_TRUE(
+      read(table, "[[load.case]]\nname = \"rolling\"\nspeed = 5\n[[load.case]]\nname = \"kerb\"\n").value);
 }
 
 RollingModel<3> solid_model(int axial_cells) {

@@ -802,6 +802,66 @@ class OneScreen(PageTest):
         self.assertNotIn("1000000", messages)
 
 
+def height(outline, along):
+    """Of a ground's outline, between its places."""
+    (a, up_a), (b, up_b) = next(pair for pair in zip(outline, outline[1:]) if pair[0][0] <= along <= pair[1][0] > pair[0][0])
+    return up_a + (along - a) / (b - a) * (up_b - up_a)
+
+
+class OnGrounds(PageTest):
+    """A wheel whose load cases are grounds, of which the page shows that of the chosen one."""
+
+    case = CASE + """
+[[load.case]]
+name = "flat"
+[[load.case]]
+name = "kerb"
+ground = "kerb"
+ground_place = 0.06
+ground_height = 0.03
+ground_radius = 0.01
+[[load.case]]
+name = "roller"
+ground = "drum"
+ground_radius = 0.25
+"""
+
+    def opacities(self, places):
+        """Of the canvas with the ground, at places [along, up] in metres from the axle, that are on it."""
+        return self.browser.execute_script("""
+            const canvas = document.getElementById("wheel"), ratio = canvas.width / canvas.clientWidth;
+            const { scale, x, y } = JSON.parse(canvas.dataset.view), context = canvas.getContext("2d");
+            return arguments[0].map(([along, up]) => [ratio * (x + scale * along), ratio * (y - scale * up)])
+              .map(([u, v]) => u < 0 || u >= canvas.width || v < 0 || v >= canvas.height ? null :
+                context.getImageData(u, v, 1, 1).data[3]);""", places)
+
+    def test_the_ground_is_that_of_the_load_case(self):
+        self.settled()
+        self.paused()
+        self.still()
+        step = 0.065  # of the kerb
+        places = [0.01 * k for k in range(-40, 41) if abs(0.01 * k - step) > 0.02]
+        for k, name in enumerate(("flat", "kerb", "roller")):
+            self.element(f"case-{k}").click()
+            self.until(lambda k=k: self.loaded("case") == str(k))
+            fields = json.loads(self.watched.get(f"/loaded?position=0&case={k}"))["fields"]
+            self.assertEqual("ground_m" in fields, name != "flat")
+            outline = fields.get("ground_m", [[-4, -0.34], [4, -0.34]])
+            if name == "roller":
+                places = [along for along in places if abs(along) < 0.25]
+                self.assertEqual(self.opacities([[-0.26, -0.36], [0.26, -0.36]]), [0, 0])
+            heights = [height(outline, along) for along in places]
+            view = json.loads(self.wheel("view"))
+            self.assertLess(abs(float(self.wheel("ground")) - (view["y"] - view["scale"] * height(outline, 0))), 2)
+            below = self.opacities([[along, up - 0.006] for along, up in zip(places, heights)])
+            self.assertEqual(set(below) - {None}, {255}, name)
+            self.assertGreater(len([seen for seen in below if seen]), 15)
+            beside = [[along, up + 0.006] for along, up in zip(places, heights) if along ** 2 + up ** 2 > 0.35 ** 2]
+            self.assertEqual(set(self.opacities(beside)) - {None}, {0}, name)
+        # The wheel rests on the roller, and not on the kerb's upper side, which is in front of it.
+        self.assertGreater(height(json.loads(self.watched.get("/loaded?position=0&case=1"))["fields"]["ground_m"], 0.1), -0.34)
+
+
 class SolidPage(PageTest):
     """The page of a wheel in three dimensions."""
 

@@ -38,6 +38,9 @@ struct FieldBinder {
   Field operator()(const PointsField<Struct>& f) const {
     return PointsField<BoundTable>{at(f.member), f.range};
   }
+  Field operator()(const LossFactorField<Struct>& f) const {
+    return LossFactorField<BoundTable>{at(f.member), f.range, f.default_text};
+  }
   Field operator()(const WordField<Struct>& f) const { return WordField<BoundTable>{at(f.member), f.words}; }
   Field operator()(const OptionalWordField<Struct>& f) const {
     return OptionalWordField<BoundTable>{at(f.member), f.words, f.default_text};

@@ -76,8 +76,8 @@ struct MaterialLayer : OrthotropicConstants, FatigueConstants {
   std::optional<double> outer_radius = {};  ///< absent: the tread
   double youngs_modulus = 200e6;            ///< [Pa]
   double poissons_ratio = 0.48;
-  std::optional<double> density = {};              ///< [kg/m^3]
-  std::optional<double> loss_factor = {};          ///< tan(delta)
+  std::optional<double> density = {};  ///< [kg/m^3]
+  std::optional<LossFactor> loss_factor = {};
   std::optional<double> conductivity = {};         ///< [W/(m K)]
   std::optional<double> maximum_temperature = {};  ///< [deg C]
   LayerHoles holes = LayerHoles::allowed;
@@ -97,6 +97,7 @@ struct MaterialCord {
 struct CaseLoad {
   std::string name = {};
   double weight = 1;                              ///< of its terms in the objective
+  std::optional<double> distance_share = {};      ///< of the distance, driven under it
   std::optional<double> force = {}, travel = {};  ///< at most one of them
   std::optional<double> horizontal_force = {}, torque = {};
   std::optional<std::array<double, 2>> body_force = {};

@@ -178,6 +178,11 @@ double unresolved_losses(const Case& c) {
   return std::min(1.0, 3 / (8 * x * x));
 }
 
+StrainFrequencies strain_frequencies(const Case& c) {
+  const double turn = c.load.speed / (2 * pi * c.wheel.outer_radius);
+  return {turn, c.load.speed / (4 * likely_half_width(c)), turn * (total_load_positions(c) / 2)};
+}
+
 int positions_for_losses(const Case& c, double share) {
   const double x = std::sqrt(3 / (8 * share));
   return static_cast<int>(std::ceil(c.load.positions * x / resolved_harmonic(c)));

@@ -85,6 +85,14 @@ inline constexpr double least_cells_per_contact_patch = 6;
 /// 3 / 8 (2 R_e / (N a))^2, with N positions around the wheel; at most 1.
 double unresolved_losses(const Case& c);
 
+/// The frequencies at which the material of a rolling wheel is strained [Hz].
+struct StrainFrequencies {
+  double turn;     ///< v / (2 pi R_e)
+  double contact;  ///< below which three quarters of the losses of a Hertzian contact are: v / (4 a)
+  double last;     ///< of the last harmonic that the load positions resolve
+};
+StrainFrequencies strain_frequencies(const Case& c);
+
 /// The least load.positions that leave at most this share.
 int positions_for_losses(const Case& c, double share);
 

@@ -120,6 +120,18 @@ struct PointsField {
   Range range;
   std::string_view default_text = {};
 };
+/// tan(delta) as a number, or as a table over the frequency.
+template <class Struct>
+struct LossFactorField {
+  Place<Struct, std::optional<LossFactor>> member;
+  Range range;  ///< of the number, and of each number of the table
+  std::string_view default_text;
+  static constexpr double factor = 1;
+};
+/// Of the frequencies of its table [Hz], and the shortest table.
+inline constexpr Range loss_frequencies = between(1e-9, 1e9);
+inline constexpr std::size_t fewest_loss_factors = 2;
+
 /// The shortest and the longest list.
 inline constexpr std::size_t fewest_points = 3, most_points = 10000;
 
@@ -185,8 +197,8 @@ struct Key {
   std::string_view unit = {};  ///< empty for pure numbers and words
   std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
                OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>,
-               OptionalPointField<Struct>, PointsField<Struct>, WordField<Struct>, OptionalWordField<Struct>,
-               ChoiceField<Struct>, QuantityField<Struct>>
+               OptionalPointField<Struct>, PointsField<Struct>, LossFactorField<Struct>, WordField<Struct>,
+               OptionalWordField<Struct>, ChoiceField<Struct>, QuantityField<Struct>>
       field;
   std::string_view meaning;
   Presence presence = Presence::has_default;  ///< required: unless a key instead of it is given

@@ -95,13 +95,17 @@ std::optional<double> PlacedMaterial::density() const {
   return std::visit([](const auto& m) { return m.density; }, material);
 }
 
-std::optional<double> PlacedMaterial::loss_factor() const {
+std::optional<LossFactor> PlacedMaterial::loss_factor() const {
   return std::visit([](const auto& m) { return m.loss_factor; }, material);
 }
 
 std::optional<double> PlacedMaterial::fatigue_limit() const {
   return std::visit([](const auto& m) { return m.fatigue ? std::optional(m.fatigue->limit) : std::nullopt; },
                     material);
+}
+
+std::optional<double> PlacedMaterial::fatigue_exponent() const {
+  return std::visit([](const auto& m) { return m.fatigue ? m.fatigue->exponent : std::nullopt; }, material);
 }
 
 std::optional<double> PlacedMaterial::conductivity() const {
@@ -127,6 +131,10 @@ CaseKeys keys_of_moduli(const Case& c) {
 CaseKey PlacedMaterial::poissons_ratio_key() const {
   if (orthotropic()) return key_of_constant(layer, &OrthotropicConstants::poissons_ratio_radial_azimuthal);
   return layer ? key_of(&MaterialLayer::poissons_ratio, *layer) : key_of(&Material::poissons_ratio);
+}
+
+CaseKey PlacedMaterial::loss_factor_key() const {
+  return layer ? key_of(&MaterialLayer::loss_factor, *layer) : key_of(&Material::loss_factor);
 }
 
 std::vector<OrthotropicConstant> needed_constants(const Case& c) {
@@ -242,10 +250,10 @@ std::vector<double> radii_of_lines(const Case& c) {
 
 namespace {
 
-using Constant = std::optional<double> (PlacedMaterial::*)() const;
-
 /// Whether every material of the ring has a constant, or that of a part.
-bool all_have(const Case& c, const std::optional<PartOfRing>& part, Constant constant) {
+template <class Constant>
+bool all_have(const Case& c, const std::optional<PartOfRing>& part,
+              std::optional<Constant> (PlacedMaterial::*constant)() const) {
   return std::ranges::all_of(placed_materials(c), [&](const PlacedMaterial& placed) {
     return (part && placed.name != part->name) || (placed.*constant)().has_value();
   });
@@ -264,6 +272,8 @@ bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part) {
 bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part) {
   return all_have(c, part, &PlacedMaterial::fatigue_limit);
 }
+
+bool has_fatigue_exponent(const Case& c) { return all_have(c, {}, &PlacedMaterial::fatigue_exponent); }
 
 bool has_conductivity(const Case& c) { return all_have(c, {}, &PlacedMaterial::conductivity); }
 

@@ -26,16 +26,18 @@ struct PlacedMaterial {
   double youngs_modulus() const;
   /// E* of Hertz's theory [Pa].
   double contact_modulus() const;
-  std::optional<double> density() const;        ///< [kg/m^3]
-  std::optional<double> loss_factor() const;    ///< tan(delta)
+  std::optional<double> density() const;  ///< [kg/m^3]
+  std::optional<LossFactor> loss_factor() const;
   std::optional<double> fatigue_limit() const;  ///< FatigueStrength::limit
-  std::optional<double> conductivity() const;   ///< [W/(m K)]
+  std::optional<double> fatigue_exponent() const;
+  std::optional<double> conductivity() const;  ///< [W/(m K)]
   /// The least share of a unit compliance: near 0 elements lock. 1 - 2 nu of an isotropic material in plane
   /// strain.
   double least_compliance() const;
 
   CaseKey youngs_modulus_key() const;
   CaseKey poissons_ratio_key() const;  ///< that of radius and azimuth of an orthotropic material
+  CaseKey loss_factor_key() const;
 };
 
 using OrthotropicConstant = std::optional<double> OrthotropicConstants::*;
@@ -113,6 +115,7 @@ bool has_density(const Case& c, const std::optional<PartOfRing>& part = {});
 /// The same of the loss factor.
 bool has_loss_factor(const Case& c, const std::optional<PartOfRing>& part = {});
 bool has_fatigue_limit(const Case& c, const std::optional<PartOfRing>& part = {});
+bool has_fatigue_exponent(const Case& c);
 bool has_conductivity(const Case& c);
 
 /// How a wheel gives its heat away; nothing if nothing takes it.

@@ -148,6 +148,20 @@ void check_speed(const SingleLoad& single, Conflicts& found) {
                                c.load.speed * std::sqrt(advised / strain))});
 }
 
+/// A loss factor over the frequency needs a speed; under load cases in which the wheel stands it is that of
+/// the lowest frequency.
+void check_frequencies(const Case& c, Conflicts& found) {
+  const auto loads = single_loads(c);
+  if (std::ranges::any_of(loads, [](const SingleLoad& single) { return single.c.load.speed > 0; })) return;
+  for (const PlacedMaterial& placed : placed_materials(c))
+    if (const auto factor = placed.loss_factor(); factor && !factor->table().empty()) {
+      found.push_back({{placed.loss_factor_key(), loads.front().key(&Load::speed)},
+                       "a loss factor over the frequency needs the speed of the wheel",
+                       "set load.speed, or one number for all frequencies"});
+      return;
+    }
+}
+
 /// Checks the list of load cases, and references to them.
 void check_names_of_load_cases(const Case& c, Conflicts& found) {
   const auto& cases = c.load.cases;
@@ -186,12 +200,42 @@ void check_names_of_load_cases(const Case& c, Conflicts& found) {
                      "set uniformity_annulus, or use one load"});
 }
 
+/// The shares of the distance that load cases are driven for divide all of it among them, and need lives.
+void check_distance_shares(const Case& c, Conflicts& found) {
+  constexpr double rounding = 1e-4;  // of shares such as 0.3333
+  std::vector<std::string> without;
+  std::optional<std::size_t> first;
+  double sum = 0;
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k) {
+    const CaseLoad& load_case = c.load.cases[k];
+    sum += load_case.distance_share.value_or(0);
+    if (!load_case.distance_share) without.push_back(load_case.name);
+    if (load_case.distance_share && !first) first = k;
+  }
+  if (!first) return;
+  const CaseKey key = key_of(&CaseLoad::distance_share, *first);
+  if (!without.empty())
+    found.push_back({{key},
+                     fmt::format("load cases without a share of the distance: {}", fmt::join(without, ", ")),
+                     "add distance_share to each, 0 if it is not driven, or omit all"});
+  else if (std::abs(sum - 1) > rounding)
+    found.push_back({{key},
+                     fmt::format("the shares of all load cases must sum to 1; they sum to {:.6g}", sum),
+                     sum > 0 ? fmt::format("divide each by {:.6g}", sum) : "set at least one share > 0"});
+  if (!has_fatigue_exponent(c))
+    found.push_back({{key, key_of(&RingMaterial::fatigue_exponent)},
+                     "without effect unless every material has a fatigue life",
+                     "set fatigue_measure, its limit and fatigue_exponent of each, or omit the shares"});
+}
+
 }  // namespace
 
 void load_conflicts(const Case& c, Conflicts& found) {
   for (const auto check : {check_travel, check_load, check_friction, check_speed})
     check_loads(single_loads(c), found, check);
   check_names_of_load_cases(c, found);
+  check_distance_shares(c, found);
+  check_frequencies(c, found);
 }
 
 void wall_conflicts(const Case& c, Conflicts& found) { check_loads(single_loads(c), found, check_walls); }

@@ -151,7 +151,12 @@ std::vector<Key<CaseLoad>> load_case_keys() {
        .presence = Presence::required},
       {.name = "weight",
        .field = NumberField<CaseLoad>{&CaseLoad::weight, between(0, 1e9)},
-       .meaning = "weight of this load in the objective; 0: it is used only in constraints"}};
+       .meaning = "weight of this load in the objective; 0: it is used only in constraints"},
+      {.name = "distance_share",
+       .field = OptionalNumberField<CaseLoad>{&CaseLoad::distance_share, between(0, 1),
+                                              "no life under all load cases is shown"},
+       .meaning = "share of the distance that is driven under this load, for the fatigue life under all load "
+                  "cases; all of them have one, 1 in sum"}};
   add_changeable(keys, &Load::force, &CaseLoad::force);
   add_changeable(keys, &Load::travel, &CaseLoad::travel);
   add_changeable(keys, &Load::horizontal_force, &CaseLoad::horizontal_force);

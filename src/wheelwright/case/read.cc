@@ -275,6 +275,43 @@ std::optional<Complaint> read_points(const Reading& reading, const toml::node& n
   return {};
 }
 
+/// A table over the frequency.
+std::optional<Complaint> read_loss_factors(const toml::array& array,
+                                           const LossFactorField<BoundTable>& field) {
+  const auto not_a_table = wrong_type("a number, or a list of [frequency in Hz, number]",
+                                      "write it as 0.1 or as [[1, 0.05], [100, 0.12]]");
+  std::vector<LossFactor::Point> table;
+  for (const toml::node& element : array) {
+    const toml::array* pair = element.as_array();
+    if (!pair || pair->size() != 2) return not_a_table;
+    auto& [frequency, value] = table.emplace_back();
+    if (auto complaint = read_number((*pair)[0], "Hz", loss_frequencies, frequency)) return complaint;
+    if (auto complaint = read_number((*pair)[1], "", field.range, value)) return complaint;
+  }
+  if (table.size() < fewest_loss_factors || table.size() > most_points)
+    return Complaint{Kind::out_of_range,
+                     fmt::format("has {} frequencies; {} to {} are accepted", table.size(),
+                                 fewest_loss_factors, most_points),
+                     "write one loss factor as a number"};
+  const auto is_later = [](const LossFactor::Point& a, const LossFactor::Point& b) { return a[0] >= b[0]; };
+  if (const auto unsorted = std::ranges::adjacent_find(table, is_later); unsorted != table.end())
+    return Complaint{Kind::out_of_range,
+                     fmt::format("the frequency {} Hz follows {} Hz", number_text((*(unsorted + 1))[0]),
+                                 number_text((*unsorted)[0])),
+                     "write the frequencies in ascending order"};
+  field.member.value() = LossFactor(std::move(table));
+  return {};
+}
+
+std::optional<Complaint> read_field(const toml::node& node, const BoundKey& key,
+                                    const LossFactorField<BoundTable>& field) {
+  if (const toml::array* array = node.as_array()) return read_loss_factors(*array, field);
+  double value = 0;
+  auto complaint = read_number(node, key.unit, field.range, value);
+  if (!complaint) field.member.value() = value;
+  return complaint;
+}
+
 /// The place of a word of the file among `words`, or why it has none.
 Expected<std::size_t, Complaint> read_word(const toml::node& node,
                                            const std::vector<std::string_view>& words) {

@@ -61,7 +61,9 @@ constexpr std::string_view
         "grid.degree = 2, if plane = \"strain\"",
     meaning_of_loss_factor =
         "tan(delta): loss modulus by storage modulus, for the rolling resistance, which needs that of every "
-        "material; 0 has no losses, and above about 0.3 the resistance is only a rough estimate",
+        "material; 0 has no losses, and above about 0.3 the resistance is only a rough estimate; over the "
+        "frequency [[Hz, tan(delta)], ...], linear over its logarithm and constant beyond the ends, at "
+        "load.speed",
     meaning_of_conductivity =
         "thermal conductivity, the same along all axes, for the temperature of the rolling wheel, which "
         "needs that of every material and the section heat",
@@ -223,8 +225,8 @@ const Section<RingMaterial>& material_section() {
             .meaning = "for the mass of the wheel, also if it is minimized or bounded, and for "
                        "load.speed; the weight is set by load.body_force"},
            {.name = "loss_factor",
-            .field = OptionalNumberField<Struct>{&Struct::loss_factor, loss_factors,
-                                                 "no rolling resistance is shown"},
+            .field =
+                LossFactorField<Struct>{&Struct::loss_factor, loss_factors, "no rolling resistance is shown"},
             .meaning = meaning_of_loss_factor}})};
   return section;
 }
@@ -264,8 +266,8 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
                 OptionalNumberField<MaterialLayer>{&MaterialLayer::density, densities, "no mass is shown"},
             .meaning = "for the mass of the wheel and for load.speed, which need that of every material"},
            {.name = "loss_factor",
-            .field = OptionalNumberField<MaterialLayer>{&MaterialLayer::loss_factor, loss_factors,
-                                                        "no rolling resistance is shown"},
+            .field = LossFactorField<MaterialLayer>{&MaterialLayer::loss_factor, loss_factors,
+                                                    "no rolling resistance is shown"},
             .meaning = meaning_of_loss_factor},
            {.name = "holes",
             .field = choice<&MaterialLayer::holes>({"allowed", "none"}),

@@ -82,12 +82,20 @@ std::string value_text(const OptionalPointField<BoundTable>& field) {
   return point ? fmt::format("[{}, {}]", number_text((*point)[0]), number_text((*point)[1])) : "";
 }
 
-std::string value_text(const PointsField<BoundTable>& field) {
-  if (field.member.value().empty()) return "";
+std::string list_text(const std::vector<std::array<double, 2>>& pairs) {
   std::vector<std::string> points;
-  for (const auto& [x, y] : field.member.value())
-    points.push_back(fmt::format("[{}, {}]", number_text(x), number_text(y)));
+  for (const auto& [x, y] : pairs) points.push_back(fmt::format("[{}, {}]", number_text(x), number_text(y)));
   return fmt::format("[{}]", fmt::join(points, ", "));
+}
+
+std::string value_text(const PointsField<BoundTable>& field) {
+  return field.member.value().empty() ? "" : list_text(field.member.value());
+}
+
+std::string value_text(const LossFactorField<BoundTable>& field) {
+  const auto& value = field.member.value();
+  if (!value) return "";
+  return value->table().empty() ? number_text(value->at(0)) : list_text(value->table());
 }
 
 std::string value_text(const ChoiceField<BoundTable>& field) { return in_quotes(field.words[field.get({})]); }
@@ -110,8 +118,10 @@ std::string value_text(const BoundKey& key) {
 /// The values that a key accepts, in words.
 std::string accepted_text(const BoundKey& key) {
   return std::visit(
-      [](const auto& field) -> std::string {
-        if constexpr (requires { field.words; })
+      []<class Field>(const Field& field) -> std::string {
+        if constexpr (std::is_same_v<Field, LossFactorField<BoundTable>>)
+          return field.range.text() + ", or [[Hz, value], ...]";
+        else if constexpr (requires { field.words; })
           return fmt::format("\"{}\"", fmt::join(field.words, "\" or \""));
         else if constexpr (requires { field.built_in_words(); })
           return fmt::format("\"{}\"", fmt::join(field.built_in_words(), "\" or \""));

@@ -40,10 +40,17 @@ constexpr std::string_view files_of_analysis[] = {
     "pressures.csv",      "pass.csv",         "loads.svg",    "mesh.svg",          "stress.svg",
     "stress_contact.svg", "displacement.svg", "pressure.svg", "fatigue.svg",       "temperature.svg"};
 
+/// The case with the tread levels of another one.
+Case with_levels_of(Case c, const Case& other) {
+  c.grid.tread_levels = other.grid.tread_levels;
+  return c;
+}
+
 /// Loads on the whole width [N]. The wheel's name replaces a missing title.
 template <int dim>
 RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<double>& loads,
-                             const StateSolver<dim>& solver, const State<dim>& solution) {
+                             const StateSolver<dim>& solver, const State<dim>& solution,
+                             const LoadCases<dim>& all_loads) {
   const Case& c = wheel.source;
   const std::string title = c.title.empty() ? wheel.name : c.title;
   RollingReport report{.title = fmt::format("{}, {}", title, wheel.which),
@@ -56,7 +63,10 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
                        .finer = {}};
   report.losses = rolling_losses(solver, wheel.shape, solution);
   report.outer_radius = c.wheel.outer_radius;
+  report.is_ground_flat = solver.model().ground.is_flat();
   report.fatigue = fatigue_results(solver, wheel.shape, solution);
+  report.damage = fatigue_damage(solver, wheel.shape, solution, all_loads, print_contact_progress());
+  for (const auto& load_case : all_loads) report.load_cases.push_back(load_case.name);
   report.heat = heat_results(solver, wheel.shape, solution);
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
   report.under_loads = under_loads<dim>(solution, report.loads);
@@ -66,14 +76,17 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
 /// The analysis under the same loads on the finer grid.
 template <int dim>
 Expected<FinerReport, std::string> finer_report(const Expected<SolvedFinerShape<dim>, std::string>& finer,
-                                                const std::vector<double>& loads) {
+                                                const std::vector<double>& loads,
+                                                const LoadCases<dim>& all_loads) {
   if (!finer) return finer.failure();
-  return FinerReport{rolling_analysis(*finer->solver, *finer->states),
-                     under_loads<dim>(*finer->states, loads),
-                     finer->refinement,
-                     rolling_losses<dim>(*finer->solver, finer->shape, *finer->states),
-                     fatigue_results<dim>(*finer->solver, finer->shape, *finer->states),
-                     heat_results<dim>(*finer->solver, finer->shape, *finer->states)};
+  return FinerReport{
+      rolling_analysis(*finer->solver, *finer->states),
+      under_loads<dim>(*finer->states, loads),
+      finer->refinement,
+      rolling_losses<dim>(*finer->solver, finer->shape, *finer->states),
+      fatigue_results<dim>(*finer->solver, finer->shape, *finer->states),
+      fatigue_damage<dim>(*finer->solver, finer->shape, *finer->states, all_loads, print_contact_progress()),
+      heat_results<dim>(*finer->solver, finer->shape, *finer->states)};
 }
 
 std::vector<std::string> warnings_of_heat(const RollingReport& report) {
@@ -96,7 +109,8 @@ void write_plots(const std::filesystem::path& folder, const RollingReport& repor
 /// The contact of all positions, and pictures of the loaded wheel.
 template <int dim>
 void write_fields(const std::filesystem::path& folder, const RollingReport& report,
-                  const LevelSet<dim>& shape, const StateSolver<dim>& solver, const State<dim>& states) {
+                  const LevelSet<dim>& shape, const StateSolver<dim>& solver, const State<dim>& states,
+                  const LoadCases<dim>& all_loads) {
   const auto points = contact_points(solver, states);
   if constexpr (dim == 2)
     write_atomically(folder / "pressures.svg",
@@ -105,7 +119,7 @@ void write_fields(const std::filesystem::path& folder, const RollingReport& repo
   write_wheel_pictures(
       folder,
       {.prefix = "", .title = report.title, .width = report.width, .n_positions = solver.model().n_positions},
-      shape, states.domain(), most_stressed_fields(solver, states));
+      shape, states.domain(), most_stressed_fields(solver, states, all_loads));
 }
 
 std::string check_loads(const std::string& text) {
@@ -160,13 +174,14 @@ class AnalyzeCommand : public Subcommand {
     auto wheel = read_wheel_or_report(input_, {name(), threads_, positions_});
     if (!wheel) return wheel.failure();
     if (output_ && !may_write_to(*output_, files_of_analysis)) return exit_refused;
+    const Case given = std::visit([](const auto& input) { return input.source; }, *wheel);
     if (!take_load_case(*wheel)) return exit_refused;
     if (pass_ &&
         std::visit([](const auto& input) { return ground_of(input.source.load).is_even(); }, *wheel)) {
       print_err("{}: --pass needs a load whose load.ground is a bar, a kerb or a profile\n", name());
       return exit_refused;
     }
-    return std::visit([this](const auto& input) { return analyze(input); }, *wheel);
+    return std::visit([&](const auto& input) { return analyze(input, given); }, *wheel);
   }
 
  private:
@@ -192,11 +207,15 @@ class AnalyzeCommand : public Subcommand {
         wheel);
   }
 
-  /// Computes the shape at its load positions and reports the quantities of interest.
+  /// Computes the shape at its load positions and reports the quantities of interest; the fatigue under all
+  /// load cases too if the case as given has their shares of the distance and no load case is requested.
   template <int dim>
-  int analyze(const WheelInput<dim>& wheel) const {
+  int analyze(const WheelInput<dim>& wheel, const Case& given) const {
     const Case& c = wheel.source;
-    const auto made = make_solver(rolling_model<dim>(with_levels_of_results(c)));
+    const LoadCases<dim> all_loads = load_case_ ? LoadCases<dim>() : load_cases<dim>(given);
+    const bool knows_shares = !distance_shares(all_loads).empty();
+    const Case all = with_levels_of_results(knows_shares ? given : c);
+    const auto made = make_solver(rolling_model<dim>(all));
     if (!made) return report_failure(name(), made.failure());
     const StateSolver<dim>& solver = **made;
     const LevelSet<dim>& shape = wheel.shape;
@@ -204,24 +223,26 @@ class AnalyzeCommand : public Subcommand {
     if (!solved) return report_failure(name(), solved.failure());
     if (const auto failure = material_overlaps(solver, shape, **solved))
       return report_failure(name(), *failure);
-    RollingReport report = rolling_report(wheel, loads(), solver, **solved);
-    if (!without_errors_ || accuracy_) add_accuracy(with_levels_of_results(c), solver, shape, solved, report);
+    RollingReport report = rolling_report(wheel, loads(), solver, **solved, all_loads);
+    if (!without_errors_ || accuracy_)
+      add_accuracy(with_levels_of(c, all), solver, shape, solved, all_loads, report);
+    if (pass_) report.pass = ground_pass<dim>(**solved, *parse_number_list(*pass_));
     print_report(report);
-    if (pass_) report_pass(**solved);
     const auto size = deformation_size<dim>(solver, shape, **solved, report.analysis.deformations);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       warn_about(wheel.name, warning);
     for (const std::string& warning : warnings_of_heat(report)) warn_about(wheel.name, warning);
-    if (output_) write(report, shape, solver, **solved);
+    if (output_) write(report, shape, solver, **solved, all_loads);
     return exit_done;
   }
 
   /// Adds what finer grids say about the numbers. `c` has the tread levels of the solver.
   template <int dim>
   void add_accuracy(const Case& c, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
-                    const SolvedStates<dim>& states, RollingReport& report) const {
+                    const SolvedStates<dim>& states, const LoadCases<dim>& all_loads,
+                    RollingReport& report) const {
     auto finer = solved_finer_shape(c, solver, shape, print_contact_progress());
-    if (!without_errors_) report.finer = finer_report(finer, report.loads);
+    if (!without_errors_) report.finer = finer_report(finer, report.loads, all_loads);
     if (accuracy_)
       report.accurate = refined_numbers(c, solver, shape, states, std::move(finer),
                                         *parse_accuracy(*accuracy_), print_contact_progress());
@@ -234,23 +255,14 @@ class AnalyzeCommand : public Subcommand {
                               : without_control_characters(report.title) + "\n\n" + rolling_table(report));
   }
 
-  /// The ground's way below the wheel, as a table and a file.
-  template <int dim>
-  void report_pass(const State<dim>& states) const {
-    const auto pass = ground_pass<dim>(states, *parse_number_list(*pass_));
-    const double forces = whole_width(dim, states.model().grid.width);
-    if (!json_) print_lines(stdout, '\n' + pass_table(pass, forces));
-    if (!output_) return;
-    make_folder(folder());
-    write_atomically(folder() / "pass.csv", pass_csv(pass, forces));
-  }
-
   template <int dim>
   void write(const RollingReport& report, const LevelSet<dim>& shape, const StateSolver<dim>& solver,
-             const State<dim>& states) const {
+             const State<dim>& states, const LoadCases<dim>& all_loads) const {
     make_folder(folder());
     write_plots(folder(), report);
-    write_fields(folder(), report, shape, solver, states);
+    write_fields(folder(), report, shape, solver, states, all_loads);
+    if (!report.pass.empty())
+      write_atomically(folder() / "pass.csv", pass_csv(report.pass, whole_width(dim, report.width)));
     write_atomically(folder() / result_file, rolling_json(report));
   }
 

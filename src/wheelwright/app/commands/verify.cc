@@ -25,27 +25,34 @@ std::string orders_text(const GradientCheck& check) {
   return std::isinf(check.lowest_order()) ? "rounding" : fmt::format("{:.4f}", check.lowest_order());
 }
 
-/// One row per function. Returns whether all pass.
-bool report_gradients(const std::vector<GradientCheck>& checks) {
+/// The function, and the radius with respect to which its derivative is tested.
+std::string tested(const GradientCheck& check) {
+  return check.radius.empty() ? check.function : check.function + ", " + check.radius;
+}
+
+/// One row per test. `of`: what is tested. Returns whether all pass.
+bool report_checks(const std::string& of, const std::vector<GradientCheck>& checks) {
   size_t width = 8;
-  for (const GradientCheck& check : checks) width = std::max(width, check.function.size());
-  print("Taylor tests of the shape gradients: error of the linear prediction as the step is halved\n");
+  for (const GradientCheck& check : checks) width = std::max(width, tested(check).size());
+  print("Taylor tests of {}: error of the linear prediction as the step is halved\n", of);
   print("  {:<{}}  {:>14}  {:>14}  {:>12}  {:>9}  {:>9}\n", "function", width, "value", "derivative",
         "step [m]", "error", "order");
-  bool passed = true, any_smoothed = false;
+  bool passed = true;
   for (const GradientCheck& check : checks) {
-    print("  {:<{}}  {:>14.7g}  {:>14.7g}  {:>12.3e}  {:>9.1e}  {:>9}  {}\n", check.function, width,
+    print("  {:<{}}  {:>14.7g}  {:>14.7g}  {:>12.3e}  {:>9.1e}  {:>9}  {}\n", tested(check), width,
           check.test.value, check.test.derivative, check.test.steps.front(), check.largest_error(),
           orders_text(check), check.is_smoothed ? StyledText{"not tested"} : verdict(check.passed()));
     passed = passed && !check.failed();
-    any_smoothed = any_smoothed || check.is_smoothed;
   }
+  return passed;
+}
+
+void explain_checks(const std::vector<GradientCheck>& checks) {
   print("  required: order > {}, and an error of the derivative below {} at the largest step\n",
         GradientCheck::wanted_order, GradientCheck::max_error);
-  if (any_smoothed)
+  if (std::ranges::any_of(checks, &GradientCheck::is_smoothed))
     print(
         "  not tested: a maximum, whose gradient is deliberately that of a p-norm or of a smooth maximum\n");
-  return passed;
 }
 
 /// The ground's forces and moments on the wheel against those on the rim, in the motions that are free.
@@ -62,7 +69,7 @@ bool report_balance(const State<dim>& solution, const RimControl& rim) {
 
 class VerifyCommand : public Subcommand {
  public:
-  VerifyCommand() : Subcommand("verify", "Test the shape gradient and the balance of forces on a case") {}
+  VerifyCommand() : Subcommand("verify", "Test the gradients and the balance of forces on a case") {}
 
   void declare(Options& options) override {
     add_wheel(options, input_);
@@ -79,14 +86,29 @@ class VerifyCommand : public Subcommand {
   }
 
  private:
+  /// Whether gradients and, if radii of layers are unknowns, the derivatives with respect to them pass their
+  /// tests. Without a boundary that can move there are only these.
+  template <int dim>
+  static Expected<bool> verify_derivatives(const Study<dim>& study, const LevelSet<dim>& given) {
+    const auto radii = check_radii(study, given, print_contact_progress());
+    if (!radii) return radii.failure();
+    const auto gradients = check_gradients(study, given, print_contact_progress());
+    if (!gradients && (radii->empty() || gradients.failure().reason != FailureReason::empty_shape))
+      return gradients.failure();
+    bool passed = !gradients || report_checks("the shape gradients", *gradients);
+    if (!radii->empty())
+      passed = report_checks("the derivatives with respect to radii of layers", *radii) && passed;
+    explain_checks(gradients ? *gradients : *radii);
+    return passed;
+  }
+
   /// Whether the case passes all tests for a shape.
   template <int dim>
   static Expected<bool> verify(const Case& c, const LevelSet<dim>& given) {
     const auto study = make_study<dim>(c);
     if (!study) return study.failure();
-    const auto gradients = check_gradients(*study, given, print_contact_progress());
-    if (!gradients) return gradients.failure();
-    const bool passed = report_gradients(*gradients);
+    const auto passed = verify_derivatives(*study, given);
+    if (!passed) return passed.failure();
     const StateSolver<dim>& solver = *study->solver;
     const auto& cases = study->load_cases;
     const auto states =
@@ -97,7 +119,7 @@ class VerifyCommand : public Subcommand {
       if (!cases.empty()) print("Load case {}. ", cases[k].name);
       balance = report_balance(*(*states)[k], rim_control((*states)[k]->model())) && balance;
     }
-    return passed && balance;
+    return *passed && balance;
   }
 
   std::string input_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wheelwright/base/periodic.h"
+#include "wheelwright/mechanics/state/axle_height.h"
 
 namespace wheelwright {
 namespace {
@@ -43,13 +44,6 @@ void add(double factor, const std::vector<double>& factors, const double* x, dou
     for (int i = 0; i < n; ++i) y[i] += factors[i] * factor * x[i];
   else
     for (int i = 0; i < n; ++i) y[stride * i] += factors[i] * factor * x[i];
-}
-
-/// Height of the axle's middle above the ground that the undeformed tread touches.
-template <int dim>
-double undeformed_height(const PolarGrid<dim>& grid, double camber) {
-  if (dim == 2 || camber == 0) return grid.outer_radius;
-  return grid.outer_radius * std::cos(camber) + 0.5 * grid.width * std::abs(std::sin(camber));
 }
 
 /// Assembles the flexibility of a zone.
@@ -163,7 +157,7 @@ template <int dim>
 ContactPoints<dim> contact_points(const Tread<dim>& tread, const PolarGrid<dim>& grid, GroundPosition ground,
                                   ContactZone zone, const Ground& shape) {
   const double column_angle = grid.column_angle();
-  const double height = undeformed_height(grid, ground.camber) + shape.standing(grid.outer_radius).rise;
+  const double height = axle_height(grid, shape, ground.camber);
   const bool has_gaps = tread.form().counterpart == Counterpart::ground;
   ContactPoints<dim> at{zone, shape, tread.n_columns(), ground.column + ground.offset - zone.first_column,
                         {},   {}};

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "wheelwright/mechanics/elasticity/fatigue_strength.h"
+#include "wheelwright/mechanics/elasticity/loss_factor.h"
 
 namespace wheelwright {
 
@@ -15,13 +16,11 @@ enum class Plane {
 /// Isotropic linear elasticity (2). When dim = 2, in plane strain or plane stress, and nothing else knows
 /// which: the law in the plane is the same for both, with the constants of plane_strain_equivalent().
 struct Material {
-  double youngs_modulus = 200e6;       ///< E [Pa]
-  double poissons_ratio = 0.48;        ///< nu, 0 <= nu < 1/2
-  Plane plane = Plane::strain;         ///< must be strain when dim = 3
-  std::optional<double> density = {};  ///< [kg/m^3]; needed for the mass and for rotation
-  /// tan(delta): the energy that a cycle of harmonic strain loses, over 2 pi times its elastic energy at the
-  /// largest strain; for the rolling resistance.
-  std::optional<double> loss_factor = {};
+  double youngs_modulus = 200e6;                   ///< E [Pa]
+  double poissons_ratio = 0.48;                    ///< nu, 0 <= nu < 1/2
+  Plane plane = Plane::strain;                     ///< must be strain when dim = 3
+  std::optional<double> density = {};              ///< [kg/m^3]; needed for the mass and for rotation
+  std::optional<LossFactor> loss_factor = {};      ///< for the rolling resistance
   std::optional<FatigueStrength> fatigue = {};     ///< what it bears over many turns
   std::optional<double> conductivity = {};         ///< thermal [W/(m K)]; for temperatures
   std::optional<double> maximum_temperature = {};  ///< up to which it may be used [deg C]

@@ -62,8 +62,8 @@ class MaterialLaw {
   /// [kg/m^3]; needed for the mass and for rotation.
   virtual std::optional<double> density() const { return {}; }
 
-  /// tan(delta) (Material::loss_factor), at least 0; needed for the rolling resistance. Of a linear law.
-  virtual std::optional<double> loss_factor() const { return {}; }
+  /// tan(delta), at least 0; needed for the rolling resistance. Of a linear law.
+  virtual std::optional<LossFactor> loss_factor() const { return {}; }
 
   /// Thermal conductivity [W/(m K)], positive, the same along all axes; needed for temperatures.
   virtual std::optional<double> conductivity() const { return {}; }

@@ -24,7 +24,7 @@ class OrthotropicLaw : public MaterialLaw<dim> {
   double scaling_modulus() const override { return material_.scaling_modulus(); }
   double contact_modulus() const override { return material_.contact_modulus(); }
   std::optional<double> density() const override { return material_.density; }
-  std::optional<double> loss_factor() const override { return material_.loss_factor; }
+  std::optional<LossFactor> loss_factor() const override { return material_.loss_factor; }
   std::optional<double> conductivity() const override { return material_.conductivity; }
   std::optional<double> maximum_temperature() const override { return material_.maximum_temperature; }
   const FatigueStrength* fatigue_strength() const override {

@@ -17,13 +17,13 @@ struct PlaneCompliance {
 /// azimuth (t) and the axle (z). nu_ab is -eps_b / eps_a under a stress along a alone, so that nu_ab / E_a =
 /// nu_ba / E_b.
 struct OrthotropicMaterial {
-  double modulus_r, modulus_t, modulus_z;  ///< Young's moduli [Pa]
-  double ratio_rt, ratio_rz, ratio_tz;     ///< Poisson's ratios
-  double shear_rt;                         ///< shear moduli [Pa]
-  double shear_rz = 0, shear_tz = 0;       ///< do not count when dim = 2
-  Plane plane = Plane::strain;             ///< must be strain when dim = 3
-  std::optional<double> density = {};      ///< [kg/m^3]
-  std::optional<double> loss_factor = {};  ///< tan(delta) of all moduli
+  double modulus_r, modulus_t, modulus_z;      ///< Young's moduli [Pa]
+  double ratio_rt, ratio_rz, ratio_tz;         ///< Poisson's ratios
+  double shear_rt;                             ///< shear moduli [Pa]
+  double shear_rz = 0, shear_tz = 0;           ///< do not count when dim = 2
+  Plane plane = Plane::strain;                 ///< must be strain when dim = 3
+  std::optional<double> density = {};          ///< [kg/m^3]
+  std::optional<LossFactor> loss_factor = {};  ///< of all moduli
   std::optional<FatigueStrength> fatigue = {};
   std::optional<double> conductivity = {};  ///< thermal, the same along all axes [W/(m K)]
   std::optional<double> maximum_temperature = {};

@@ -29,8 +29,8 @@ std::vector<double> heat_loads(const StateSolver<dim>& solver, const State<dim>&
   std::vector<double> loads(lattice.n_nodes(), 0.0);
   const auto& layers = model.materials.layers();
   for (int layer = 0; layer < static_cast<int>(layers.size()); ++layer) {
-    const double loss_factor = layers[layer].law->loss_factor().value_or(0);
-    if (loss_factor == 0) continue;
+    const LossFactor loss_factor = layers[layer].law->loss_factor().value_or(0);
+    if (loss_factor.largest() == 0) continue;
     const LossDensity<dim> losses(model, layer, loss_factor);
     const LossOfTurn<dim> of_turn(model, loss_factor);
     const StrainedCells<dim> cells(solver, state, losses);

@@ -134,7 +134,7 @@ double Ground::height(double along) const {
     const double x = along - round.top[0], sign = round.hollow ? -1 : 1;
     if (std::abs(x) <= round.radius)
       result = std::max(
-          result, round.top[1] + sign * (std::sqrt(round.radius * round.radius - x * x) - round.radius));
+          result, round.top[1] + sign * (std::sqrt((round.radius - x) * (round.radius + x)) - round.radius));
   }
   return result;
 }
@@ -169,6 +169,7 @@ std::vector<Vec<2>> Ground::line(double from, double to, double deviation) const
                                                      std::sqrt(8 * std::min(0.1, deviation / round.radius))));
       for (int k = -n; k <= n; ++k)
         places.push_back(round.top[0] + round.radius * std::sin(0.5 * std::numbers::pi * k / n));
+      for (const double side : {-1, 1}) places.push_back(round.top[0] + side * (round.radius + deviation));
     }
   }
   std::ranges::sort(places);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ template <int dim>
 struct LoadCase {
   std::string name;
   RollingModel<dim> model;  ///< differs from the solver's only in its loads
+  /// Of the distance, driven under it; all load cases of a problem have one or none has.
+  std::optional<double> distance_share = {};
 };
 
 /// The load cases of a problem: the first has the load of the solver's own model. Empty: only that load.
@@ -26,6 +29,15 @@ using StatesOfCases = std::vector<std::shared_ptr<const State<dim>>>;
 template <int dim>
 std::string name_in_case(std::string name, const LoadCases<dim>& cases, int load_case) {
   return load_case == 0 ? name : std::move(name) + " in " + cases[load_case].name;
+}
+
+/// The shares of the distance that are driven under the load cases; empty if they are not known.
+template <int dim>
+std::vector<double> distance_shares(const LoadCases<dim>& cases) {
+  std::vector<double> shares;
+  for (const LoadCase<dim>& load_case : cases)
+    if (load_case.distance_share) shares.push_back(*load_case.distance_share);
+  return shares;
 }
 
 /// The model under other loads.
@@ -45,6 +57,20 @@ LoadPositions distinct_positions(const StateSolver<dim>& solver, const LoadCases
   return solver.distinct_positions(psi);
 }
 
+/// The states of a shape under all load cases after the first one, from that under the first one. Fails as
+/// State::under() does.
+template <int dim>
+Expected<StatesOfCases<dim>> states_of_other_cases(const State<dim>& first, const LoadCases<dim>& cases,
+                                                   const Interrupt& interrupt) {
+  StatesOfCases<dim> states;
+  for (std::size_t k = 1; k < cases.size(); ++k) {
+    auto next = first.under(with_loads(first.model(), cases[k].model), interrupt);
+    if (!next) return next.failure();
+    states.push_back(*std::move(next));
+  }
+  return states;
+}
+
 /// The states of a shape under all load cases, with one factorization. Fails as StateSolver::states() does.
 template <int dim>
 Expected<StatesOfCases<dim>> states_of_cases(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
@@ -52,12 +78,8 @@ Expected<StatesOfCases<dim>> states_of_cases(const StateSolver<dim>& solver, con
                                              const Interrupt& interrupt) {
   auto first = solver.states(shape, std::move(positions), interrupt);
   if (!first) return first.failure();
-  StatesOfCases<dim> states{*std::move(first)};
-  for (std::size_t k = 1; k < cases.size(); ++k) {
-    auto next = states.front()->under(cases[k].model, interrupt);
-    if (!next) return next.failure();
-    states.push_back(*std::move(next));
-  }
+  auto states = states_of_other_cases(**first, cases, interrupt);
+  if (states) states->insert(states->begin(), *std::move(first));
   return states;
 }
 

@@ -7,6 +7,7 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/mechanics/elasticity/symmetric_tensor.h"
 #include "wheelwright/mechanics/state/material_rule.h"
+#include "wheelwright/mechanics/state/place_in_body.h"
 
 namespace wheelwright {
 namespace {
@@ -54,13 +55,6 @@ Matrix strains_by_component(const Matrix& strains) {
       for (int k = 0; k < n_strains<dim>; ++k)
         result(j * n_points + q, k) = strains(q * n_strains<dim> + k, j);
   return result;
-}
-
-template <int dim>
-Vec<dim> place_in_body(const PolarGrid<dim>& grid, int cell, const Vec<dim>& xi, int sector) {
-  Vec<dim> place = grid.polar_point(grid.cell_position(cell), xi);
-  place[1] += sector * grid.sector_angle();
-  return place;
 }
 
 /// One cell in all positions and sectors.

@@ -1,6 +1,8 @@
 #include "wheelwright/mechanics/state/turn_losses.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "wheelwright/mechanics/state/turn_harmonics.h"
@@ -35,7 +37,7 @@ std::vector<double> integrated_energy(const StateSolver<dim>& solver, const Stat
   const TurnHarmonics turn(state.positions().size(), solver.model().grid.n_sectors);
   const Matrix waves = turn.waves();
   std::vector<double> result(turn.n_harmonics(), 0.0);
-  for_each_cell<dim>(solver, state, LossDensity<dim>(solver.model(), layer, 1),
+  for_each_cell<dim>(solver, state, LossDensity<dim>(solver.model(), layer, LossFactor(1)),
                      [&](const StrainedCell<dim>& cell) {
                        const Matrix amplitudes = product(waves, Op::transpose, cell.strains, Op::none);
                        for (int q = 0; q < cell.n_points(); ++q) {
@@ -52,9 +54,19 @@ std::vector<double> integrated_energy(const StateSolver<dim>& solver, const Stat
 }  // namespace
 
 template <int dim>
-std::vector<double> forces_by_energy(const PolarGrid<dim>& grid, int n_harmonics, double factor) {
+std::vector<double> loss_factors(const RollingModel<dim>& model, int n_harmonics,
+                                 const LossFactor& loss_factor) {
+  const double turns_per_second = std::abs(model.distributed.angular_speed) / (2 * std::numbers::pi);
+  std::vector<double> factors;
+  for (int n = 0; n < n_harmonics; ++n) factors.push_back(loss_factor.at(n * turns_per_second));
+  return factors;
+}
+
+template <int dim>
+std::vector<double> forces_by_energy(const PolarGrid<dim>& grid, std::span<const double> loss_factors) {
   std::vector<double> forces;
-  for (int n = 0; n < n_harmonics; ++n) forces.push_back(factor * 2 * n / grid.outer_radius);
+  for (std::size_t n = 0; n < loss_factors.size(); ++n)
+    forces.push_back(loss_factors[n] * 2 * static_cast<double>(n) / grid.outer_radius);
   return forces;
 }
 
@@ -65,11 +77,19 @@ bool has_loss_factors(const Materials<dim>& materials) {
 }
 
 template <int dim>
-LossDensity<dim>::LossDensity(const RollingModel<dim>& model, int layer, double loss_factor)
+LossDensity<dim>::LossDensity(const RollingModel<dim>& model, int layer, std::span<const double> loss_factors)
     : materials_(model.materials), layer_(layer) {
-  const TurnHarmonics turn(model.n_positions, model.grid.n_sectors);
-  filter_ = turn.filter(forces_by_energy(model.grid, turn.n_harmonics(), loss_factor / model.n_positions));
+  std::vector<double> of_position(loss_factors.begin(), loss_factors.end());
+  for (double& factor : of_position) factor /= model.n_positions;
+  filter_ = TurnHarmonics(model.n_positions, model.grid.n_sectors)
+                .filter(forces_by_energy<dim>(model.grid, of_position));
 }
+
+template <int dim>
+LossDensity<dim>::LossDensity(const RollingModel<dim>& model, int layer, const LossFactor& loss_factor)
+    : LossDensity(model, layer,
+                  loss_factors(model, TurnHarmonics(model.n_positions, model.grid.n_sectors).n_harmonics(),
+                               loss_factor)) {}
 
 template <int dim>
 void LossDensity<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
@@ -106,11 +126,12 @@ bool LossDensity<dim>::covers(const PolarGrid<dim>& grid, int row) const {
 }
 
 template <int dim>
-LossOfTurn<dim>::LossOfTurn(const RollingModel<dim>& model, double loss_factor) {
+LossOfTurn<dim>::LossOfTurn(const RollingModel<dim>& model, const LossFactor& loss_factor) {
   const TurnHarmonics turn(model.n_positions, model.grid.n_sectors);
-  const auto forces = forces_by_energy(model.grid, turn.n_harmonics(), loss_factor / model.n_positions);
+  const auto forces = forces_by_energy<dim>(model.grid, loss_factors(model, turn.n_harmonics(), loss_factor));
   waves_ = turn.waves();
-  for (int wave = 0; wave < turn.n_cases(); ++wave) factors_.push_back(forces[TurnHarmonics::harmonic(wave)]);
+  for (int wave = 0; wave < turn.n_cases(); ++wave)
+    factors_.push_back(forces[TurnHarmonics::harmonic(wave)] / model.n_positions);
 }
 
 template <int dim>
@@ -140,10 +161,13 @@ std::vector<std::vector<double>> resistance_of_layers(const StateSolver<dim>& so
       for (std::size_t n = 0; n < rest.size(); ++n) rest[n] -= of_layer[n];
     forces.push_back(std::move(rest));
   }
-  const auto by_energy = forces_by_energy(model.grid, static_cast<int>(forces.front().size()), 1);
-  for (int layer = 0; layer < n_layers; ++layer)
-    for (std::size_t n = 0; n < by_energy.size(); ++n)
-      forces[layer][n] *= model.materials.layers()[layer].law->loss_factor().value_or(0) * by_energy[n];
+  const auto n_harmonics = static_cast<int>(forces.front().size());
+  const auto by_energy = forces_by_energy<dim>(model.grid, std::vector<double>(n_harmonics, 1.0));
+  for (int layer = 0; layer < n_layers; ++layer) {
+    const auto factors = loss_factors(state.model(), n_harmonics,
+                                      model.materials.layers()[layer].law->loss_factor().value_or(0));
+    for (int n = 0; n < n_harmonics; ++n) forces[layer][n] *= factors[n] * by_energy[n];
+  }
   return forces;
 }
 
@@ -154,6 +178,7 @@ double resistance_beyond(std::span<const double> by_harmonic) {
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                              \
   template decltype(has_loss_factors<dim>) has_loss_factors<dim>; \
+  template decltype(loss_factors<dim>) loss_factors<dim>;         \
   template decltype(forces_by_energy<dim>) forces_by_energy<dim>; \
   template class LossDensity<dim>;                                \
   template class LossOfTurn<dim>;                                 \

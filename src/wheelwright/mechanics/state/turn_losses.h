@@ -10,24 +10,31 @@ namespace wheelwright {
 // The force that keeps a wheel rolling against the losses of its material [N/m when dim = 2, N when dim = 3].
 // In a turn, in which the wheel moves on by 2 pi R_e, a material of loss factor tan(delta) loses in harmonic
 // n of its strains the energy 4 pi n tan(delta) W_n, with W_n of State::energy_by_harmonic(). All positions
-// of the sector must have been solved. Cords have no losses.
+// of the sector must have been solved. Cords have no losses. Harmonic n has n times the frequency of the
+// turns at the model's speed; without a speed it is 0.
 
 /// Whether the loss factor of every material is known.
 template <int dim>
 bool has_loss_factors(const Materials<dim>& materials);
 
-/// The forces by the energies W_n of the harmonics 0 ... n_harmonics - 1: 2 n / R_e times a loss factor
-/// [1/m].
+/// A loss factor in the harmonics 0 ... n_harmonics - 1 of the turn of a model's wheel.
 template <int dim>
-std::vector<double> forces_by_energy(const PolarGrid<dim>& grid, int n_harmonics, double loss_factor);
+std::vector<double> loss_factors(const RollingModel<dim>& model, int n_harmonics,
+                                 const LossFactor& loss_factor);
+
+/// The forces by the energies W_n of the harmonics: 2 n / R_e times their loss factors [1/m].
+template <int dim>
+std::vector<double> forces_by_energy(const PolarGrid<dim>& grid, std::span<const double> loss_factors);
 
 /// The shares of the load cases in the force, as a density of the material of one layer: their sum,
 /// integrated over the layer, is the force.
 template <int dim>
 class LossDensity : public MaterialDensity<dim> {
  public:
-  /// Of one of the model's layers, with this factor in place of the layer's loss factor.
-  LossDensity(const RollingModel<dim>& model, int layer, double loss_factor);
+  /// Of one of the model's layers, with these factors of the harmonics in place of the layer's loss factor.
+  LossDensity(const RollingModel<dim>& model, int layer, std::span<const double> loss_factors);
+  /// With this loss factor, at the model's speed.
+  LossDensity(const RollingModel<dim>& model, int layer, const LossFactor& loss_factor);
 
   void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
   void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
@@ -46,7 +53,7 @@ class LossDensity : public MaterialDensity<dim> {
 template <int dim>
 class LossOfTurn {
  public:
-  LossOfTurn(const RollingModel<dim>& model, double loss_factor);
+  LossOfTurn(const RollingModel<dim>& model, const LossFactor& loss_factor);
 
   /// At the points of a cell [N/m^3].
   std::vector<double> densities(const StrainedCell<dim>& cell) const;

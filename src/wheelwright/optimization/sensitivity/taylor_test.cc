@@ -40,22 +40,30 @@ double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, c
 }
 
 template <int dim>
-Expected<std::vector<TaylorTest>> taylor_tests(
-    const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate,
-    const Evaluation<dim>& start, const LevelSet<dim>& psi, std::span<const double> direction, int map_degree,
-    double step, int halvings) {
-  std::vector<TaylorTest> tests;
+std::vector<double> directional_derivatives(const Evaluation<dim>& start, const LevelSet<dim>& psi,
+                                            std::span<const double> direction, int map_degree) {
+  std::vector<double> derivatives;
   for (const FunctionValue& function : start.functions)
-    tests.push_back(
-        {.value = function.value,
-         .derivative = directional_derivative(start.gradient(function.name), psi, direction, map_degree) +
-                       directional_derivative(start.edge_gradient(function.name), psi, direction, map_degree),
-         .steps = {},
-         .remainders = {},
-         .orders = {}});
+    derivatives.push_back(
+        directional_derivative(start.gradient(function.name), psi, direction, map_degree) +
+        directional_derivative(start.edge_gradient(function.name), psi, direction, map_degree));
+  return derivatives;
+}
+
+template <int dim>
+Expected<std::vector<TaylorTest>> taylor_tests(
+    const std::function<Expected<Evaluation<dim>>(double)>& evaluate_at, const Evaluation<dim>& start,
+    std::span<const double> derivatives, double step, int halvings) {
+  std::vector<TaylorTest> tests;
+  for (size_t i = 0; i < derivatives.size(); ++i)
+    tests.push_back({.value = start.functions[i].value,
+                     .derivative = derivatives[i],
+                     .steps = {},
+                     .remainders = {},
+                     .orders = {}});
   for (int k = 0; k <= halvings; ++k) {
     const double t = step * std::pow(0.5, k);
-    const auto trial = evaluate(moved(psi, direction, t));
+    const auto trial = evaluate_at(t);
     if (!trial) return trial.failure();
     for (size_t i = 0; i < tests.size(); ++i) {
       TaylorTest& test = tests[i];
@@ -65,6 +73,16 @@ Expected<std::vector<TaylorTest>> taylor_tests(
     }
   }
   return tests;
+}
+
+template <int dim>
+Expected<std::vector<TaylorTest>> taylor_tests(
+    const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate,
+    const Evaluation<dim>& start, const LevelSet<dim>& psi, std::span<const double> direction, int map_degree,
+    double step, int halvings) {
+  const auto evaluate_at = [&](double t) { return evaluate(moved(psi, direction, t)); };
+  return taylor_tests<dim>(std::function<Expected<Evaluation<dim>>(double)>(evaluate_at), start,
+                           directional_derivatives(start, psi, direction, map_degree), step, halvings);
 }
 
 template <int dim>
@@ -80,11 +98,18 @@ Expected<TaylorTest> taylor_test(
   return Failure{FailureReason::unsupported_model, "there is no function named " + std::string(name)};
 }
 
-template decltype(directional_derivative<2>) directional_derivative<2>;
-template decltype(taylor_tests<2>) taylor_tests<2>;
-template decltype(taylor_test<2>) taylor_test<2>;
-template decltype(directional_derivative<3>) directional_derivative<3>;
-template decltype(taylor_tests<3>) taylor_tests<3>;
-template decltype(taylor_test<3>) taylor_test<3>;
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                 \
+  template decltype(directional_derivative<dim>) directional_derivative<dim>;                        \
+  template decltype(directional_derivatives<dim>) directional_derivatives<dim>;                      \
+  template Expected<std::vector<TaylorTest>> taylor_tests(                                           \
+      const std::function<Expected<Evaluation<dim>>(double)>&, const Evaluation<dim>&,               \
+      std::span<const double>, double, int);                                                         \
+  template Expected<std::vector<TaylorTest>> taylor_tests(                                           \
+      const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const Evaluation<dim>&, \
+      const LevelSet<dim>&, std::span<const double>, int, double, int);                              \
+  template decltype(taylor_test<dim>) taylor_test<dim>;
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 
 }  // namespace wheelwright

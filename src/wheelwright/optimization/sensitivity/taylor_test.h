@@ -15,6 +15,11 @@ template <int dim>
 double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, const LevelSet<dim>& psi,
                               std::span<const double> direction, int map_degree);
 
+/// That of every function of an evaluation of psi, in their order, with the parts at edges.
+template <int dim>
+std::vector<double> directional_derivatives(const Evaluation<dim>& start, const LevelSet<dim>& psi,
+                                            std::span<const double> direction, int map_degree);
+
 /// The error of the linear prediction: |J(t) - J(0) - t J'(0)| for t = step, step/2, ...
 struct TaylorTest {
   double value, derivative;
@@ -32,6 +37,12 @@ Expected<std::vector<TaylorTest>> taylor_tests(
     const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate,
     const Evaluation<dim>& start, const LevelSet<dim>& psi, std::span<const double> direction, int map_degree,
     double step, int halvings);
+
+/// The same along any path of evaluations, from the derivatives of the functions at its start, t = 0.
+template <int dim>
+Expected<std::vector<TaylorTest>> taylor_tests(
+    const std::function<Expected<Evaluation<dim>>(double)>& evaluate_at, const Evaluation<dim>& start,
+    std::span<const double> derivatives, double step, int halvings);
 
 /// The same of the function of that name.
 template <int dim>

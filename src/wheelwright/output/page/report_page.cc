@@ -52,6 +52,15 @@ std::vector<std::uint8_t> as_bytes_of_roots(const std::vector<double>& values, d
   return result;
 }
 
+/// The ground of all load positions, unless it is the usual one.
+template <class Position>
+void add_ground(std::span<const Position> all, Json& json) {
+  if (all.empty() || !all.front().ground) return;
+  const ShownGround& ground = *all.front().ground;
+  json["ground_m"] = ground.outline;
+  if (ground.camber != 0) json["camber_rad"] = ground.camber;
+}
+
 /// The deformed wheel at its load positions. Displacements are Cartesian, in the body frame.
 Json fields_json(const SectorMesh& mesh, std::span<const MeshPosition> all) {
   std::vector<float> points;
@@ -72,7 +81,7 @@ Json fields_json(const SectorMesh& mesh, std::span<const MeshPosition> all) {
             {"full_displacement_m", full_displacement},
             {"full_stress_Pa", full_stress},
             {"positions", std::move(positions)}};
-  if (!all.empty() && !all.front().ground.empty()) json["ground_m"] = all.front().ground;
+  add_ground(all, json);
   if (!mesh.layer_edges.empty()) json["layer_edges"] = encoded(mesh.layer_edges);
   return json;
 }
@@ -172,6 +181,7 @@ Json fields_json(const LayeredSurface& mesh, std::span<const SurfacePosition> al
             {"full_displacement_m", full_displacement},
             {"full_stress_Pa", full_stress},
             {"positions", std::move(positions)}};
+  add_ground(all, json);
   if (!mesh.layer_edges.empty()) json["layer_edges"] = encoded(edges);
   return json;
 }

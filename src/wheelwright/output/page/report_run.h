@@ -49,6 +49,7 @@ struct SurfacePosition {
   double ground_azimuth;                         ///< as in PositionFields
   std::vector<std::vector<float>> displacement;  ///< [component][vertex] [m], body frame
   std::vector<float> von_mises;                  ///< [Pa]
+  std::optional<ShownGround> ground = {};
 };
 
 /// One load position as the page shows it.

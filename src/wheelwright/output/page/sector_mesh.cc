@@ -129,13 +129,11 @@ SectorMesh sector_mesh(const LevelSet<2>& psi, const RollingModel<2>& model) {
 }
 
 MeshPosition on_mesh(const SectorMesh& mesh, const PositionFields<2>& fields) {
-  MeshPosition position{.ground_azimuth = fields.ground_azimuth, .x = {}, .y = {}, .von_mises = {}};
-  if (!fields.ground.is_flat()) {
-    const double radius = fields.lattice.grid().outer_radius,
-                 level = radius + fields.ground.standing(radius).rise;
-    for (const Vec<2>& place : fields.ground.line(-1.2 * radius, 1.2 * radius, 1e-3 * radius))
-      position.ground.push_back({place[0], place[1] - level});
-  }
+  MeshPosition position{.ground_azimuth = fields.ground_azimuth,
+                        .x = {},
+                        .y = {},
+                        .von_mises = {},
+                        .ground = shown_ground(fields)};
   const std::size_t n_points = mesh.points.size() * fields.lattice.grid().n_sectors;
   for (auto* values : {&position.x, &position.y, &position.von_mises}) values->reserve(n_points);
   for_each_point<2>(mesh, fields.lattice, fields.displacement, [&](const auto& u) {

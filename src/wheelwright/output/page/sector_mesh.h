@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "wheelwright/output/page/shown_ground.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/shape/geometry/level_set.h"
 
@@ -30,8 +31,7 @@ struct MeshPosition {
   double ground_azimuth;          ///< as in PositionFields
   std::vector<double> x, y;       ///< displacement [m], body frame
   std::vector<double> von_mises;  ///< [Pa]
-  /// Outline of ground that is not flat: along it towards larger azimuth, and up from the axle [m].
-  std::vector<Vec<2>> ground = {};
+  std::optional<ShownGround> ground = {};
 };
 
 MeshPosition on_mesh(const SectorMesh& mesh, const PositionFields<2>& fields);

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "wheelwright/mechanics/state/axle_height.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/shape/geometry/cell_map.h"
 
@@ -40,7 +41,7 @@ Vec<2> interpolated(const RingField& field, const Lattice<2>& lattice, const std
 std::vector<double> press_of_tread(const Lattice<2>& lattice, const RingField& displacement,
                                    double magnification, double contact_azimuth, const Ground& ground) {
   const PolarGrid<2>& grid = lattice.grid();
-  const double radius = grid.outer_radius, level = radius + ground.standing(radius).rise;
+  const double radius = grid.outer_radius, level = axle_height(grid, ground);
   std::vector<double> press;
   for (int column = 0; column < grid.ring_columns(); ++column)
     for (int k = 0; k < press_samples; ++k) {
@@ -81,7 +82,7 @@ DeformedMaterial::DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lat
       magnification_(magnification),
       to_picture_(-0.5 * std::numbers::pi - contact_azimuth),
       ground_(ground),
-      level_(lattice.grid().outer_radius + ground.standing(lattice.grid().outer_radius).rise),
+      level_(axle_height(lattice.grid(), ground)),
       press_(below == Below::ground
                  ? press_of_tread(lattice, displacement, magnification, contact_azimuth, ground)
                  : std::vector<double>()) {}

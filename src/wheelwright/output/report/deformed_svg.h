@@ -29,6 +29,7 @@ struct DeformedPicture {
   int most_stressed_of = 1;  ///< load positions of a sector
   bool is_bonded = false;    ///< the tread to a rigid ring, which is drawn instead of the ground
   Ground ground = {};
+  double camber = 0;  ///< of the wheel on it; when dim = 3 [rad]
   /// Half the edge of a square view of the contact [m]; absent: the whole wheel.
   std::optional<double> window;
   NamedField scalar;  ///< in an SI unit without prefix, e.g. "von Mises stress" in "Pa"

@@ -48,6 +48,14 @@ constexpr double curve_tolerance = 3e-5;
 /// A number of a wheel; nothing if the wheel cannot have one.
 using Number = std::optional<KnownNumber>;
 
+/// A value of the fatigue under all load cases, if it is known.
+template <int dim, class Value>
+Number of_damage(const DescribedWheel<dim>& wheel, const Value& value) {
+  if (!wheel.damage) return {};
+  if (!*wheel.damage) return to_string(wheel.damage->failure());
+  return value(**wheel.damage);
+}
+
 /// A value of the wheel under its load.
 template <int dim, class Value>
 Number under_load(const DescribedWheel<dim>& wheel, const Value& value) {
@@ -106,6 +114,15 @@ Number of_losses(const DescribedWheel<dim>& wheel, const Value& value) {
   });
 }
 
+/// The number of a layer from the rim; nothing if the wheel, which must be loaded, has none of that name.
+template <int dim>
+std::optional<std::size_t> index_of_layer(const DescribedWheel<dim>& wheel, const std::string& layer) {
+  const auto& layers = wheel.loaded->rolling.layers;
+  const auto found = std::ranges::find(layers, layer, &LayerResults::name);
+  if (found == layers.end()) return {};
+  return found - layers.begin();
+}
+
 /// A value of the fatigue results, if they are known.
 template <int dim, class Value>
 Number of_fatigue(const DescribedWheel<dim>& wheel, const Value& value) {
@@ -138,6 +155,13 @@ Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const Le
                           rolling_losses(solver, psi, **states),
                           fatigue_results(solver, psi, **states),
                           heat_results(solver, psi, **states)};
+}
+
+template <int dim>
+Expected<std::vector<UtilizedPoints>> utilized(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                               const SolvedStates<dim>& states) {
+  if (!states) return states.failure();
+  return utilized_points(solver, psi, **states);
 }
 
 }  // namespace
@@ -173,6 +197,10 @@ DescribedWheel<dim> described_solution(const StateSolver<dim>& solver, const Lev
                             .own = own_numbers ? own_numbers(states) : std::vector<OwnNumber>()};
   wheel.layers = layer_circles(solver.model().materials);
   if (!cases.empty()) wheel.load_case = cases.front().name;
+  const auto shares = distance_shares(cases);
+  const bool sums_damage = !shares.empty() && knows_fatigue_lives(solver.model().materials);
+  std::vector<Expected<std::vector<UtilizedPoints>>> by_case;
+  if (sums_damage) by_case.push_back(utilized(solver, psi, states));
   for (std::size_t k = 1; k < cases.size(); ++k) {
     DescribedWheel<dim> other = wheel;
     other.others.clear();
@@ -182,7 +210,9 @@ DescribedWheel<dim> described_solution(const StateSolver<dim>& solver, const Lev
     other.loaded = loaded_wheel(solver, psi, under_load);
     if (own_numbers) other.own = own_numbers(under_load);
     wheel.others.push_back(std::move(other));
+    if (sums_damage) by_case.push_back(utilized(solver, psi, under_load));
   }
+  if (sums_damage) wheel.damage = sum_of_damages(solver.model().materials, by_case, shares);
   return wheel;
 }
 
@@ -212,6 +242,14 @@ template <int dim>
 const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case) {
   const auto found = std::ranges::find(wheel.others, load_case, &DescribedWheel<dim>::load_case);
   return found == wheel.others.end() ? nullptr : &*found;
+}
+
+template <int dim>
+std::vector<std::string> load_cases_of(const DescribedWheel<dim>& wheel) {
+  std::vector<std::string> names;
+  if (!wheel.load_case.empty()) names.push_back(wheel.load_case);
+  for (const DescribedWheel<dim>& other : wheel.others) names.push_back(other.load_case);
+  return names;
 }
 
 template <int dim>
@@ -333,21 +371,56 @@ std::vector<WheelNumber<dim>> numbers_of_losses() {
           })};
 }
 
-/// Of wheels whose materials have fatigue strengths.
+/// The worst place of the ring, or of a layer; null if the wheel has no such layer.
+template <int dim, class Results>
+const FatigueResults::Worst* worst_place(const Results& results, const DescribedWheel<dim>& wheel,
+                                         const std::optional<PartOfRing>& part) {
+  if (!part) return &results.worst;
+  const auto layer = wheel.loaded ? index_of_layer(wheel, part->name) : std::nullopt;
+  return layer && *layer < results.by_layer.size() ? &results.by_layer[*layer] : nullptr;
+}
+
 template <int dim>
-std::vector<WheelNumber<dim>> numbers_of_fatigue() {
+Number utilization_at(const FatigueResults::Worst* place, const DescribedWheel<dim>&) {
+  return place ? Number(place->utilization) : std::nullopt;
+}
+
+/// As a distance.
+template <int dim>
+Number life_at(const FatigueResults::Worst* place, const DescribedWheel<dim>& wheel) {
+  if (!place || !place->life) return {};
+  return *place->life * 2 * std::numbers::pi * wheel.grid.outer_radius;
+}
+
+/// Of wheels whose materials have fatigue strengths: of the ring or of a layer, under a load, and under all
+/// load cases if their shares of the distance are known.
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of_fatigue(const std::optional<PartOfRing>& part = {}) {
   using Wheel = DescribedWheel<dim>;
-  const auto life = [](const Wheel& w) {
-    return of_fatigue(w, [&](const FatigueResults& f) -> Number {
-      if (!f.worst.life) return {};
-      return *f.worst.life * 2 * std::numbers::pi * w.grid.outer_radius;
-    });
+  using Value = Number (*)(const FatigueResults::Worst*, const Wheel&);
+  const Quantity quantity =
+      part ? in_part(built_in("fatigue_utilization"), *part) : built_in("fatigue_utilization");
+  const std::string life_label = of_part("fatigue life", part), life_key = of_part("fatigue_life_m", part),
+                    in_all = " in all load cases";
+  const auto under_load = [&](Value value) {
+    return [part, value](const Wheel& wheel) {
+      return of_fatigue(wheel,
+                        [&](const FatigueResults& f) { return value(worst_place(f, wheel, part), wheel); });
+    };
   };
-  return {number<dim>("fatigue_utilization",
-                      [](const Wheel& w) {
-                        return of_fatigue(w, [](const FatigueResults& f) { return f.worst.utilization; });
-                      }),
-          {"fatigue life", UnitKind::distance, "fatigue_life_m", life, false, Converges::as_an_extreme}};
+  const auto under_all = [&](Value value) {
+    return [part, value](const Wheel& wheel) {
+      return of_damage(wheel,
+                       [&](const FatigueDamage& d) { return value(worst_place(d, wheel, part), wheel); });
+    };
+  };
+  const auto as_extreme = Converges::as_an_extreme;
+  return {number<dim>(quantity, under_load(utilization_at<dim>)),
+          {life_label, UnitKind::distance, life_key, under_load(life_at<dim>), false, as_extreme},
+          {label(quantity) + in_all, kind(quantity), number_key(quantity, dim) + in_all,
+           under_all(utilization_at<dim>), false, as_extreme},
+          {life_label + in_all, UnitKind::distance, life_key + in_all, under_all(life_at<dim>), false,
+           as_extreme}};
 }
 
 /// Of wheels that say how warm they get.
@@ -424,9 +497,8 @@ std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer) {
   const auto of_layer = [&](std::string_view quantity, Value value) {
     const auto of_wheel = [layer, value](const DescribedWheel<dim>& wheel) {
       return under_load(wheel, [&](const LoadedWheel<dim>& loaded) -> Number {
-        const auto& layers = loaded.rolling.layers;
-        const auto found = std::ranges::find(layers, layer, &LayerResults::name);
-        const auto known = found == layers.end() ? std::nullopt : value(*found, width(wheel));
+        const auto k = index_of_layer(wheel, layer);
+        const auto known = k ? value(loaded.rolling.layers[*k], width(wheel)) : std::nullopt;
         return known ? Number(*known) : std::nullopt;
       });
     };
@@ -434,10 +506,8 @@ std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer) {
   };
   const auto resistance = [layer](const DescribedWheel<dim>& wheel) {
     return of_losses(wheel, [&](const RollingLosses& losses) -> Number {
-      const auto& layers = wheel.loaded->rolling.layers;
-      const auto found = std::ranges::find(layers, layer, &LayerResults::name);
-      if (found == layers.end()) return {};
-      return losses.by_layer[found - layers.begin()] * width(wheel);
+      const auto k = index_of_layer(wheel, layer);
+      return k ? Number(losses.by_layer[*k] * width(wheel)) : std::nullopt;
     });
   };
   const auto temperature = [layer](const DescribedWheel<dim>& wheel) {
@@ -448,7 +518,7 @@ std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer) {
       return heat.by_layer[found - layers.begin()].temperature;
     });
   };
-  return {
+  std::vector<WheelNumber<dim>> numbers{
       number<dim>(in_part(built_in("rolling_resistance"), {layer, 0, 0}), resistance),
       number<dim>(in_part(built_in("peak_temperature"), {layer, 0, 0}), temperature),
       of_layer("mass", [](const LayerResults& l,
@@ -457,6 +527,8 @@ std::vector<WheelNumber<dim>> layer_numbers(const std::string& layer) {
                [](const LayerResults& l, double) { return std::optional(l.peak_von_mises); }),
       of_layer("largest_strain",
                [](const LayerResults& l, double) { return std::optional(l.largest_strain); })};
+  std::ranges::copy(numbers_of_fatigue<dim>(PartOfRing{layer, 0, 0}), std::back_inserter(numbers));
+  return numbers;
 }
 
 template <int dim>
@@ -526,6 +598,8 @@ template decltype(described_solution<2>) described_solution<2>;
 template decltype(with_errors<2>) with_errors<2>;
 template decltype(error_of<2>) error_of<2>;
 template decltype(under_load_case<2>) under_load_case<2>;
+template decltype(load_cases_of<2>) load_cases_of<2>;
+template decltype(load_cases_of<3>) load_cases_of<3>;
 template decltype(outline_measures<2>) outline_measures<2>;
 template decltype(roughness<2>) roughness<2>;
 template decltype(known_value<2>) known_value<2>;

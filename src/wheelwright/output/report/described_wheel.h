@@ -14,6 +14,7 @@
 #include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
+#include "wheelwright/quantities/analysis/fatigue_damage.h"
 #include "wheelwright/quantities/analysis/fatigue_results.h"
 #include "wheelwright/quantities/analysis/heat_results.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
@@ -71,6 +72,8 @@ struct DescribedWheel {
   LayerCircles layers = {};
   std::string load_case = {};               ///< of these numbers; empty: the wheel has only one load
   std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
+  /// Under all of them: fatigue_damage(), if their shares of the distance are known.
+  std::optional<Expected<FatigueDamage>> damage = {};
   /// For estimates of discretization errors, under the same load; null: none are wanted.
   std::shared_ptr<const KnownFinerWheel<dim>> finer = {};
 };
@@ -112,6 +115,10 @@ DescribedWheel<dim> with_errors(DescribedWheel<dim> wheel, const KnownFinerWheel
 /// The wheel under the load case of that name; null if it has none.
 template <int dim>
 const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case);
+
+/// The names of the wheel's load cases; empty if it has only one load.
+template <int dim>
+std::vector<std::string> load_cases_of(const DescribedWheel<dim>& wheel);
 
 /// Fails if no curves can be fitted.
 template <int dim>

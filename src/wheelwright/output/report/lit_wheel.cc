@@ -6,7 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "wheelwright/mechanics/state/axle_height.h"
+#include "wheelwright/mechanics/state/ground_frame.h"
 #include "wheelwright/output/report/colour_map.h"
+#include "wheelwright/output/report/ground_outline.h"
 #include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/surface_vtp.h"
 #include "wheelwright/output/report/svg.h"
@@ -21,6 +24,31 @@ constexpr int image_pixels = 1040;     // for screens with several pixels per un
 constexpr double half_view = 1.1;      // over the wheel's radius
 constexpr double line_width = 0.004;   // of lines between layers, over the wheel's radius
 
+/// The ground of a picture as the wheel sees it, in the body frame.
+class GroundBelow {
+ public:
+  GroundBelow(const PolarGrid<3>& grid, const DeformedPicture<3>& picture)
+      : ground_(picture.ground),
+        frame_{-picture.contact_azimuth, picture.camber},
+        level_(axle_height(grid, picture.ground, picture.camber)),
+        half_width_(0.5 * grid.width) {}
+
+  /// How far a point is below the ground [m]; negative above.
+  double depth(Vec<3> x) const {
+    x[2] -= half_width_;
+    const Vec<3> place = frame_.to_ground<3>(x);
+    return place[0] - level_ + ground_.height(place[1]);
+  }
+
+  /// A displacement away from the ground.
+  Vec<3> upwards(double by) const { return frame_.to_body<3>({-by, 0, 0}); }
+
+ private:
+  const Ground& ground_;
+  GroundFrame frame_;
+  double level_, half_width_;
+};
+
 /// How far magnified displacements move the tread below the ground, if there is one, at the displacement's
 /// nodes there.
 class Press {
@@ -29,20 +57,20 @@ class Press {
       : grid_(lattice.grid()),
         lines_(lattice.nodes()[1] * lattice.grid().n_sectors),
         axial_nodes_(lattice.nodes()[2]) {
-    const double azimuth = picture.contact_azimuth, radius = grid_.outer_radius;
-    const double level = radius + picture.ground.standing(radius).rise;
+    const GroundBelow ground(grid_, picture);
+    const double azimuth = picture.contact_azimuth;
+    const bool is_usual = picture.ground.is_flat() && picture.camber == 0;
     for (int line = 0; line < lines_; ++line) {
-      const double from_contact = line * lattice.node_angle() - azimuth;
+      const double turn = line * lattice.node_angle();
       for (int axial = 0; axial < axial_nodes_; ++axial) {
         const double* u =
             &picture.displacement.values[3 * ring_node<3>(lattice, {lattice.nodes()[0] - 1, line, axial})];
         const double down = std::cos(azimuth) * u[0] + std::sin(azimuth) * u[1];
-        const double along = std::cos(azimuth) * u[1] - std::sin(azimuth) * u[0];
+        const Vec<3> place =
+            cartesian<3>({grid_.outer_radius, turn, grid_.width * axial / (axial_nodes_ - 1)});
         const double below =
-            picture.ground.is_flat()
-                ? picture.magnification * down - grid_.outer_radius * (1 - std::cos(from_contact))
-                : picture.magnification * down + radius * std::cos(from_contact) - level +
-                      picture.ground.height(radius * std::sin(from_contact) + picture.magnification * along);
+            is_usual ? picture.magnification * down - grid_.outer_radius * (1 - std::cos(turn - azimuth))
+                     : ground.depth(place + picture.magnification * Vec<3>{u[0], u[1], u[2]});
         depths_.push_back(below > 0 && !picture.is_bonded ? below : 0);  // nothing for NaN
       }
     }
@@ -116,15 +144,18 @@ void add_layer_lines(const LayeredSurface& surface, const std::vector<Vec<3>>& p
   bodies.push_back(ribbons(points, surface.layer_edges, wheel_camera(grid), width, 1.5 * width, ink));
 }
 
-/// The ground under the wheel.
-LitBody lit_ground(const PolarGrid<3>& grid, const Ground& ground) {
+/// The ground under the wheel, on which it leans by the camber.
+LitBody lit_ground(const PolarGrid<3>& grid, const Ground& ground, double camber) {
   constexpr Rgb grey{0xe4, 0xe7, 0xea};
   const double radius = grid.outer_radius, x = 1.05 * radius, z = 0.5 * grid.width + 0.12 * radius;
-  const double level = radius + ground.standing(radius).rise;
+  const GroundFrame frame{0, camber};
   LitBody body{{}, {}, {}, false};
-  for (const Vec<2>& place : ground.line(-x, x, 1e-3 * radius)) {
+  for (const auto& [along, up] : ground_outline(grid, ground, camber, {-x, x}, 1e-3 * radius)) {
     const int n = static_cast<int>(body.points.size());
-    for (const double at : {z, -z}) body.points.push_back({place[0], place[1] - level, at});
+    for (const double across : {z, -z}) {
+      const Vec<3> place = frame.to_body<3>({-up, along, across});
+      body.points.push_back({place[1], -place[0], place[2]});
+    }
     if (n == 0) continue;
     body.triangles.push_back({n - 2, n, n + 1});
     body.triangles.push_back({n - 2, n + 1, n - 1});
@@ -175,18 +206,13 @@ std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
                               const std::vector<std::vector<float>>& displacement, const Lattice<3>& lattice,
                               const DeformedPicture<3>& picture) {
   const Press press(lattice, picture);
-  const double x_down = std::cos(picture.contact_azimuth), y_down = std::sin(picture.contact_azimuth);
-  const double radius = lattice.grid().outer_radius, level = radius + picture.ground.standing(radius).rise;
+  const GroundBelow ground(lattice.grid(), picture);
   std::vector<Vec<3>> result = points;
   for (std::size_t k = 0; k < points.size(); ++k) {
     Vec<3>& x = result[k];
     for (int d = 0; d < 3; ++d) x[d] += picture.magnification * displacement[d][k];
-    double up = press.at(points[k]);
-    const double depth =
-        x_down * x[0] + y_down * x[1] - up - level + picture.ground.height(x_down * x[1] - y_down * x[0]);
-    if (depth > 0 && !picture.is_bonded) up += depth;
-    x[0] -= up * x_down;
-    x[1] -= up * y_down;
+    x += ground.upwards(press.at(points[k]));
+    if (const double depth = ground.depth(x); depth > 0 && !picture.is_bonded) x += ground.upwards(depth);
   }
   return result;
 }
@@ -204,7 +230,7 @@ std::string deformed_svg(const SurfaceMesh& whole, const Lattice<3>& lattice,
   std::vector<LitBody> bodies{
       {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}};
   add_layer_lines(surface, points, grid, bodies);
-  if (!picture.is_bonded) bodies.insert(bodies.begin(), lit_ground(grid, picture.ground));
+  if (!picture.is_bonded) bodies.insert(bodies.begin(), lit_ground(grid, picture.ground, picture.camber));
   const Image image = lit_image(bodies, wheel_camera(grid), image_pixels);
   const bool is_pressed = Press(lattice, picture).maximum() > 0.002 * grid.outer_radius;
   return deformed_document(

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "wheelwright/output/report/damage_by_load_case.h"
 #include "wheelwright/output/report/linear_theory_json.h"
 
 namespace wheelwright {
@@ -37,6 +38,33 @@ Json place_json(const Place& place, double ground) {
   Json json{{"radius_m", place[0]}, {"azimuth_rad", place[1]}, {"load_position_rad", ground}};
   if constexpr (dim == 3) json["z_m"] = place[2];
   return json;
+}
+
+template <int dim>
+Json place_json(const FatigueResults::Worst& worst) {
+  Json json{{"radius_m", worst.place[0]}, {"azimuth_rad", worst.place[1]}};
+  if constexpr (dim == 3) json["z_m"] = worst.place[2];
+  return json;
+}
+
+/// Where the material lasts least, and which load cases do the damage.
+template <int dim>
+void add_places_of_fatigue(const DescribedWheel<dim>& wheel, Json& json) {
+  const std::string in_all = " in all load cases", fatigue_place = "fatigue_place";
+  const auto& layers = wheel.loaded->rolling.layers;
+  if (const auto& fatigue = wheel.loaded->fatigue; fatigue && *fatigue) {
+    json[fatigue_place] = place_json<dim>((*fatigue)->worst);
+    for (std::size_t k = 0; k < (*fatigue)->by_layer.size(); ++k)
+      json[fatigue_place + " of " + layers[k].name] = place_json<dim>((*fatigue)->by_layer[k]);
+  }
+  if (!wheel.damage || !*wheel.damage) return;
+  const auto add = [&](const std::string& of, const FatigueDamage::Worst& worst) {
+    json[fatigue_place + of + in_all] = place_json<dim>(worst);
+    json["damage_by_load_case" + of] = damage_json(worst, load_cases_of(wheel));
+  };
+  add("", (*wheel.damage)->worst);
+  for (std::size_t k = 0; k < (*wheel.damage)->by_layer.size(); ++k)
+    add(" of " + layers[k].name, (*wheel.damage)->by_layer[k]);
 }
 
 /// Facts about the load that the numbers do not contain.
@@ -85,7 +113,10 @@ Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized)
     json["errors"][objective] = *error ? Json(**error) : Json();
     if (!*error) json["missing_errors"][objective] = error->failure();
   }
-  if (shape.wheel.loaded) add_details(*shape.wheel.loaded, json);
+  if (shape.wheel.loaded) {
+    add_details(*shape.wheel.loaded, json);
+    add_places_of_fatigue(shape.wheel, json);
+  }
   if (const auto rough = roughness(shape.wheel)) {
     const Vec<2>& place = rough->edge.sharpest.place;
     json["roughness_place"] = {{"radius_m", norm<2>(place)}, {"azimuth_rad", std::atan2(place[1], place[0])}};

@@ -9,8 +9,10 @@
 #include <numbers>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/output/report/damage_by_load_case.h"
 #include "wheelwright/output/report/heat_report.h"
 #include "wheelwright/output/report/linear_theory_json.h"
+#include "wheelwright/output/report/pass_report.h"
 #include "wheelwright/output/report/value_with_error.h"
 #include "wheelwright/quantities/analysis/discretization_error.h"
 
@@ -320,6 +322,9 @@ std::string missing_lines(const RollingReport& report) {
     lines += fmt::format("not computed: rolling resistance: {}\n", to_string(report.losses->failure()));
   if (report.fatigue && !*report.fatigue)
     lines += fmt::format("not computed: fatigue: {}\n", to_string(report.fatigue->failure()));
+  if (report.damage && !*report.damage)
+    lines +=
+        fmt::format("not computed: fatigue in all load cases: {}\n", to_string(report.damage->failure()));
   for (size_t k = 0; k < report.loads.size(); ++k)
     if (!report.under_loads[k])
       lines += fmt::format("not computed: load {:.6g} N: {}\n", report.loads[k] * forces(report),
@@ -418,12 +423,13 @@ std::string linear_theory_lines(const RollingReport& report) {
   return fmt::format(
       "largest strain {} %, largest rotation {} deg\n"
       "error of linear theory, estimated: {} % of travel and stiffness: the real wheel is stiffer by "
-      "{:+.2g} % (rotation) +-{:.2g} % (strain) {:+.2g} % (bending)\n",
+      "{:+.2g} % (rotation) +-{:.2g} % (strain) {:+.2g} % (bending){}\n",
       with_known_error(std::ranges::max(a.peak_strain), largest_error("peak_strain", report), 100),
       with_known_error(rotation, largest_error("largest_rotation_rad", report), degree),
       with_known_error(worst.neglected.size(), largest_error("linear_theory_error", report), 100),
       100 * worst.neglected.of_rotation, 100 * std::abs(worst.neglected.of_strain),
-      100 * worst.neglected.of_bending);
+      100 * worst.neglected.of_bending,
+      report.is_ground_flat ? "" : "; what the shape of the ground adds is not in it");
 }
 
 /// Null if they are not known.
@@ -450,15 +456,25 @@ std::string losses_line(const RollingReport& report) {
 }
 
 /// Null if they are not known.
-const FatigueResults* fatigue(const std::optional<Expected<FatigueResults>>& known) {
+template <class Results>
+const Results* fatigue(const std::optional<Expected<Results>>& known) {
   return known && *known ? &**known : nullptr;
 }
 
-/// Nothing if fatigue is not known on the finer grid.
-std::optional<double> error_of_utilization(const RollingReport& report) {
-  const FatigueResults* on_finer = finer(report) ? fatigue(finer(report)->fatigue) : nullptr;
+/// The worst place of the ring, or of a layer.
+template <class Results>
+const auto& worst_of(const Results& results, const std::optional<size_t>& layer) {
+  return layer ? results.by_layer[*layer] : results.worst;
+}
+
+/// Of the utilization there; nothing if it is not known on the finer grid. `results` is a member of reports.
+template <class Results>
+std::optional<double> error_of_utilization(const RollingReport& report, const Results& found,
+                                           std::optional<Expected<Results>> FinerReport::*results,
+                                           const std::optional<size_t>& layer) {
+  const Results* on_finer = finer(report) ? fatigue(finer(report)->*results) : nullptr;
   if (!on_finer) return {};
-  return discretization_error(fatigue(report.fatigue)->worst.utilization, on_finer->worst.utilization,
+  return discretization_error(worst_of(found, layer).utilization, worst_of(*on_finer, layer).utilization,
                               finer(report)->refinement);
 }
 
@@ -466,15 +482,41 @@ double kilometres(const RollingReport& report, double turns) {
   return turns * 2 * std::numbers::pi * report.outer_radius / 1000;
 }
 
-std::string fatigue_line(const RollingReport& report) {
-  const FatigueResults::Worst& worst = fatigue(report.fatigue)->worst;
-  std::string line =
-      fmt::format("fatigue utilization {} %, at radius {:.1f} mm, azimuth {:.2f} deg",
-                  with_known_error(worst.utilization, error_of_utilization(report).value_or(NAN), 100),
-                  worst.place[0] * 1e3, worst.place[1] / degree);
-  if (worst.life)
-    line += fmt::format("; life {:.2g} turns, {:.2g} km", *worst.life, kilometres(report, *worst.life));
-  return line + "\n";
+/// Nothing of one load case alone.
+std::string text_by_case(const RollingReport&, const FatigueResults::Worst&) { return ""; }
+
+std::string text_by_case(const RollingReport& report, const FatigueDamage::Worst& worst) {
+  return "; " + damage_text(worst, report.load_cases);
+}
+
+/// The worst place of the ring and those of the layers; `where` is the load.
+template <class Results>
+std::string fatigue_lines(const RollingReport& report, const Results& found,
+                          std::optional<Expected<Results>> FinerReport::*results, const std::string& where) {
+  const auto line = [&](const std::string& of, const std::optional<size_t>& layer) {
+    const auto& worst = worst_of(found, layer);
+    std::string text =
+        fmt::format("fatigue utilization{}{} {} %, at radius {:.1f} mm, azimuth {:.2f} deg", of, where,
+                    with_known_error(worst.utilization,
+                                     error_of_utilization(report, found, results, layer).value_or(NAN), 100),
+                    worst.place[0] * mm, worst.place[1] * degree);
+    if (worst.life)
+      text += fmt::format("; life {:.2g} turns, {:.2g} km", *worst.life, kilometres(report, *worst.life));
+    return text + text_by_case(report, worst) + '\n';
+  };
+  std::string lines = line("", {});
+  for (size_t k = 0; k < found.by_layer.size(); ++k)
+    lines += line(" of " + report.analysis.layers[k].name, k);
+  return lines;
+}
+
+std::string fatigue_lines(const RollingReport& report) {
+  std::string lines;
+  if (const FatigueResults* found = fatigue(report.fatigue))
+    lines += fatigue_lines(report, *found, &FinerReport::fatigue, "");
+  if (const FatigueDamage* found = fatigue(report.damage))
+    lines += fatigue_lines(report, *found, &FinerReport::damage, " in all load cases");
+  return lines;
 }
 
 /// Null if they are not known.
@@ -609,12 +651,26 @@ Json worst_json(const RollingReport& report, const FatigueResults::Worst& worst)
   return json;
 }
 
-Json fatigue_json(const RollingReport& report) {
-  const FatigueResults& found = *fatigue(report.fatigue);
+Json worst_json(const RollingReport& report, const FatigueDamage::Worst& worst) {
+  Json json = worst_json(report, static_cast<const FatigueResults::Worst&>(worst));
+  json["damage_by_load_case"] = damage_json(worst, report.load_cases);
+  return json;
+}
+
+template <class Results>
+Json fatigue_json(const RollingReport& report, const Results& found,
+                  std::optional<Expected<Results>> FinerReport::*results) {
   Json json = worst_json(report, found.worst);
-  for (size_t k = 0; k < found.by_layer.size(); ++k)
-    json["by_layer"][report.analysis.layers[k].name] = worst_json(report, found.by_layer[k]);
-  if (const auto error = error_of_utilization(report)) json["errors"] = {{"utilization", *error}};
+  const auto add_error = [&](const std::optional<size_t>& layer, Json& of) {
+    if (const auto error = error_of_utilization(report, found, results, layer))
+      of["errors"] = {{"utilization", *error}};
+  };
+  for (size_t k = 0; k < found.by_layer.size(); ++k) {
+    Json& of_layer = json["by_layer"][report.analysis.layers[k].name];
+    of_layer = worst_json(report, found.by_layer[k]);
+    add_error(k, of_layer);
+  }
+  add_error({}, json);
   return json;
 }
 
@@ -642,6 +698,27 @@ Json loads_json(const RollingReport& report) {
                                 {"stiffness_N_per_m", load / mean_travel * *error / mean_travel}};
   }
   return loads;
+}
+
+Json pass_json(const RollingReport& report) {
+  Json pass = Json::array();
+  for (const PassPlace& place : report.pass) {
+    Json json{{"moved_m", place.shift}};
+    if (!place.positions) {
+      json["missing"] = to_string(place.positions.failure());
+      pass.push_back(std::move(json));
+      continue;
+    }
+    Json& positions = json["positions"] = Json::array();
+    for (const ContactSummary& p : *place.positions)
+      positions.push_back({{"axle_raised_m", place.rise - p.descent},
+                           {"travel_m", p.travel},
+                           {"force_up_N", forces(report) * p.radial_force},
+                           {"force_along_N", forces(report) * p.friction_force},
+                           {"peak_pressure_Pa", p.peak_pressure}});
+    pass.push_back(std::move(json));
+  }
+  return pass;
 }
 
 /// The grid, and value, error and reason of each number by its key.
@@ -683,11 +760,12 @@ std::string rolling_table(const RollingReport& report) {
   if (!report.analysis.layers.empty()) table += layer_lines(report) + '\n';
   table += stress_line(report) + linear_theory_lines(report);
   if (losses(report.losses)) table += losses_line(report);
-  if (fatigue(report.fatigue)) table += fatigue_line(report);
+  table += fatigue_lines(report);
   if (heat(report.heat)) table += heat_lines(*heat(report.heat), heat_context(report));
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   if (report.accurate) table += '\n' + accuracy_table(*report.accurate);
+  if (!report.pass.empty()) table += '\n' + pass_table(report.pass, forces(report));
   return table;
 }
 
@@ -719,11 +797,17 @@ std::string rolling_json(const RollingReport& report) {
   if (losses(report.losses)) json["rolling_resistance"] = losses_json(report);
   if (report.losses && !*report.losses)
     json["missing"]["rolling_resistance"] = to_string(report.losses->failure());
-  if (fatigue(report.fatigue)) json["fatigue"] = fatigue_json(report);
+  if (const FatigueResults* found = fatigue(report.fatigue))
+    json["fatigue"] = fatigue_json(report, *found, &FinerReport::fatigue);
   if (report.fatigue && !*report.fatigue) json["missing"]["fatigue"] = to_string(report.fatigue->failure());
+  if (const FatigueDamage* found = fatigue(report.damage))
+    json["fatigue_in_all_load_cases"] = fatigue_json(report, *found, &FinerReport::damage);
+  if (report.damage && !*report.damage)
+    json["missing"]["fatigue_in_all_load_cases"] = to_string(report.damage->failure());
   if (heat(report.heat)) json["heat"] = heat_json(*heat(report.heat), heat_context(report));
   if (report.heat && !*report.heat) json["missing"]["heat"] = to_string(report.heat->failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
+  if (!report.pass.empty()) json["pass"] = pass_json(report);
   if (report.accurate) json["accuracy"] = accuracy_json(*report.accurate);
   return json.dump(2) + '\n';
 }

@@ -6,7 +6,9 @@
 
 #include "wheelwright/output/report/accurate_numbers.h"
 #include "wheelwright/output/report/plot_svg.h"
+#include "wheelwright/quantities/analysis/fatigue_damage.h"
 #include "wheelwright/quantities/analysis/fatigue_results.h"
+#include "wheelwright/quantities/analysis/ground_pass.h"
 #include "wheelwright/quantities/analysis/heat_results.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
@@ -20,6 +22,7 @@ struct FinerReport {
   double refinement;  ///< the factor by which its cells are smaller
   std::optional<Expected<RollingLosses>> losses = {};
   std::optional<Expected<FatigueResults>> fatigue = {};
+  std::optional<Expected<FatigueDamage>> damage = {};
   std::optional<Expected<HeatResults>> heat = {};
 };
 
@@ -39,12 +42,18 @@ struct RollingReport {
   std::optional<Expected<FatigueResults>> fatigue = {};  ///< if the fatigue strengths are known
   std::optional<Expected<HeatResults>> heat = {};        ///< if temperatures are known
   double outer_radius = 0;                               ///< R_e, for lives as distances [m]
+  /// By all load cases of the wheel together, of these names, if their shares of the distance are known.
+  std::optional<Expected<FatigueDamage>> damage = {};
+  std::vector<std::string> load_cases = {};
+  bool is_ground_flat = true;        ///< else the error of linear theory lacks a part
+  std::vector<PassPlace> pass = {};  ///< of the ground below; empty: was not requested
 };
 
 /// For display: one line per load position, another one if there is friction or torque, variations in
-/// rolling, one line per layer of materials, the rolling resistance if it is known, one line per load, and
-/// what could not be computed and why. A line below the positions has the largest error of each column, and
-/// one below each variation its errors. Last, the accuracy_table().
+/// rolling, one line per layer of materials, the rolling resistance and the fatigue if they are known, one
+/// line per load, and what could not be computed and why; the pass_table() if it was requested. A line below
+/// the positions has the largest error of each column, and one below each variation its errors. Last, the
+/// accuracy_table().
 std::string rolling_table(const RollingReport& report);
 
 /// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double;

@@ -8,8 +8,10 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/report/comparison_table.h"
+#include "wheelwright/output/report/damage_by_load_case.h"
 #include "wheelwright/output/report/numbers_json.h"
 #include "wheelwright/output/report/value_with_error.h"
+#include "wheelwright/shape/geometry/place.h"
 
 namespace wheelwright {
 namespace {
@@ -30,6 +32,33 @@ std::string stress_lines(const DescribedWheel<dim>& wheel) {
   std::string lines = line("", peak.place[0], peak.place[1], peak.ground_azimuth);
   for (const LayerResults& layer : wheel.loaded->rolling.layers)
     lines += line(" of " + layer.name, layer.peak_place[0], layer.peak_place[1], layer.peak_ground);
+  return lines;
+}
+
+/// Where the material of the last shape lasts least, also in every layer, under the first load and under all
+/// load cases; empty if unknown.
+template <int dim>
+std::string places_of_fatigue(const DescribedWheel<dim>& wheel) {
+  std::string lines;
+  if (!wheel.loaded) return lines;
+  const auto& layers = wheel.loaded->rolling.layers;
+  if (const auto& fatigue = wheel.loaded->fatigue; fatigue && *fatigue) {
+    const auto line = [&](const std::string& of, const FatigueResults::Worst& worst) {
+      lines += fmt::format("fatigue{} is worst at {}\n", of, place_text<3>(worst.place));
+    };
+    line("", (*fatigue)->worst);
+    for (std::size_t k = 0; k < (*fatigue)->by_layer.size(); ++k)
+      line(" of " + layers[k].name, (*fatigue)->by_layer[k]);
+  }
+  if (wheel.damage && *wheel.damage) {
+    const auto line = [&](const std::string& of, const FatigueDamage::Worst& worst) {
+      lines += fmt::format("under all load cases the damage of fatigue{} is largest at {}; {}\n", of,
+                           place_text<3>(worst.place), damage_text(worst, load_cases_of(wheel)));
+    };
+    line("", (*wheel.damage)->worst);
+    for (std::size_t k = 0; k < (*wheel.damage)->by_layer.size(); ++k)
+      line(" of " + layers[k].name, (*wheel.damage)->by_layer[k]);
+  }
   return lines;
 }
 
@@ -118,7 +147,8 @@ std::string summary_table(const RunSummary<dim>& summary) {
   const std::string remarks = remarks_text(summary.remarks);
   std::string radii;
   for (const ChosenRadius& radius : summary.radii) radii += text(radius) + '\n';
-  return comparison_table({"before", "after"}, rows(summary)) + stress_lines(summary.after.wheel) + radii +
+  return comparison_table({"before", "after"}, rows(summary)) + stress_lines(summary.after.wheel) +
+         places_of_fatigue(summary.after.wheel) + radii +
          (remarks.empty() ? "" : "\nworse than before:\n" + remarks) +
          (summary.changed_start.empty() ? "" : "\n" + summary.changed_start + "\n");
 }

@@ -350,6 +350,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .ground_azimuth = ground_azimuth(solver, position),
           .is_bonded = solver.model().contact.counterpart == Counterpart::ring,
           .ground = state.model().ground,
+          .camber = state.model().camber,
           .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,
           .travel = contact.travel(),
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
@@ -367,9 +368,10 @@ PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<
 }
 
 template <int dim>
-PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state) {
+PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state,
+                                         const LoadCases<dim>& cases) {
   PositionFields<dim> fields = position_fields(solver, state, most_stressed_position(state));
-  fields.fatigue = fatigue_field(solver, state);
+  fields.fatigue = fatigue_field(solver, state, cases);
   fields.temperature = temperature_picture(solver, state);
   return fields;
 }
@@ -391,7 +393,7 @@ std::vector<NamedField> named_fields(const PositionFields<dim>& fields) {
                                  .unit = unit<dim>(UnitKind::stress),
                                  .field = fields.stress,
                                  .beside = {{von_mises_name, unit<dim>(UnitKind::stress), von_mises_of}}}};
-  if (fields.fatigue) named.push_back({"fatigue_utilization", unit<dim>(UnitKind::ratio), *fields.fatigue});
+  if (fields.fatigue) named.push_back(*fields.fatigue);
   if (fields.temperature)
     named.push_back({"temperature", unit<dim>(UnitKind::temperature), *fields.temperature});
   return named;

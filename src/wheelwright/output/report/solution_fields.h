@@ -3,8 +3,8 @@
 #include <functional>
 #include <optional>
 
+#include "wheelwright/mechanics/state/load_case.h"
 #include "wheelwright/mechanics/state/ring_field.h"
-#include "wheelwright/mechanics/state/state.h"
 #include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/output/report/pressure_csv.h"
 #include "wheelwright/quantities/analysis/all_positions.h"
@@ -32,13 +32,14 @@ struct PositionFields {
   double ground_azimuth;  ///< of n_y, body frame [rad]
   bool is_bonded;         ///< the tread to a rigid ring, instead of touching the ground
   Ground ground;          ///< its own mirror image if positions stand for their images
+  double camber;          ///< of the wheel on it; 0 when dim = 2 [rad]
   RimMotion rim;          ///< ground frame
   double travel;          ///< of the rim from where the rotating wheel without load touches the ground [m]
   RimForce rim_force;     ///< on the rim, per metre of width when dim = 2
   std::vector<ContactPoint> contact;
   DrawnPeak<dim> von_mises;
   LayerCircles layers = {};
-  std::optional<RingField> fatigue = {};      ///< fatigue_field(), if it was asked for
+  std::optional<NamedField> fatigue = {};     ///< fatigue_field(), if it was asked for
   std::optional<RingField> temperature = {};  ///< temperature_picture(), if it was asked for
 };
 
@@ -46,9 +47,10 @@ template <int dim>
 PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<dim>& state, int position);
 
 /// The fields of the most_stressed_position(), with fatigue and temperature of the turn, for pictures and
-/// files of one position.
+/// files of one position; with load cases, of which the state is the first one's, the fatigue_field() of all.
 template <int dim>
-PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state);
+PositionFields<dim> most_stressed_fields(const StateSolver<dim>& solver, const State<dim>& state,
+                                         const LoadCases<dim>& cases = {});
 
 /// Calls visit(position, fields) for every load position of a sector, one after the other; images are
 /// reflected.

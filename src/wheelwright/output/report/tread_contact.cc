@@ -6,6 +6,9 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/mechanics/state/axle_height.h"
+#include "wheelwright/mechanics/state/ground_frame.h"
+#include "wheelwright/output/report/ground_outline.h"
 #include "wheelwright/output/report/vtu_arrays.h"
 #include "wheelwright/quantities/analysis/all_positions.h"
 #include "wheelwright/shape/geometry/cell_map.h"
@@ -28,20 +31,24 @@ TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<di
                                   int column, int point) {
   const TreadSurface<dim>& surface = solver.tread_surface();
   const PolarGrid<dim>& grid = solver.model().grid;
-  const double ground = state.positions().grounds[position].azimuth(grid),
-               turn = column * grid.column_angle() - ground;
+  const GroundPosition& at = state.positions().grounds[position];
+  const double ground = at.azimuth(grid), turn = column * grid.column_angle() - ground;
   Vec<dim> u;
   std::copy_n(
       state.observations().column(position * surface.n_columns + column) + surface.rows().displacement(point),
       dim, u.begin());
-  const Vec<dim> place = rotated<dim>(surface.points[point].position, turn), elastic = rotated<dim>(u, turn);
-  const Vec<dim> moved = displacement<dim>(state.contacts()[position].rim, place) + elastic;
+  const GroundFrame column_frame{turn, at.camber}, body_frame{-ground, at.camber};
+  const Vec<dim>& undeformed = surface.points[point].position;
+  Vec<dim> from_middle = undeformed;
+  if constexpr (dim == 3) from_middle[2] -= 0.5 * grid.width;
+  const Vec<dim> place = column_frame.to_ground<dim>(from_middle);
+  const Vec<dim> moved =
+      displacement<dim>(state.contacts()[position].rim, place) + column_frame.to_ground<dim>(u);
   const Ground& on = state.model().ground;
-  const double height = grid.outer_radius + on.standing(grid.outer_radius).rise;
-  const auto [gap, tilt] = on.nearest({place[1], height - place[0]});
+  const auto [gap, tilt] = on.nearest({place[1], axle_height(grid, on, at.camber) - place[0]});
   const GroundFrame contact{0, 0, tilt};
-  return {.position = rotated<dim>(place, ground),
-          .displacement = rotated<dim>(moved, ground),
+  return {.position = rotated<dim>(undeformed, column * grid.column_angle()),
+          .displacement = body_frame.to_body<dim>(moved),
           .traction = {},
           .pressure = 0,
           .friction = 0,
@@ -52,7 +59,7 @@ TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<di
 template <int dim>
 void set_traction(const typename ContactPatch<dim>::Point& contact, double ground,
                   TreadContactPoint<dim>& point) {
-  point.traction = rotated<dim>(contact.ground_traction(), ground);
+  point.traction = GroundFrame{-ground, contact.frame.camber}.to_body<dim>(contact.ground_traction());
   point.pressure = -contact.traction[0];
   point.friction = contact.traction[1];
 }
@@ -231,28 +238,30 @@ void write_tread_vtu(const std::filesystem::path& path, const TreadContact<dim>&
 
 template <int dim>
 void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& grid, double ground_azimuth,
-                      const Ground& ground) {
+                      const Ground& ground, double camber) {
   constexpr double thickness = 0.05, deviation = 1e-4;  // in outer radii
-  const double radius = grid.outer_radius, level = radius + ground.standing(radius).rise;
-  const auto line = ground.line(-radius, radius, deviation * radius);
-  const double beside = dim == 2 ? 0 : 0.1 * radius;
-  double lowest = 0;
-  for (const Vec<2>& place : line) lowest = std::min(lowest, place[1]);
-  const double bottom = (1 + thickness) * radius + (level - radius) - lowest;
+  const double radius = grid.outer_radius;
+  const auto line = ground_outline(grid, ground, camber, {-radius, radius}, deviation * radius);
+  const double half_width = 0.5 * grid.width + 0.1 * radius;  // when dim = 3
+  double bottom = axle_height(grid, ground, camber);
+  for (const Vec<2>& place : line) bottom = std::max(bottom, -place[1]);
+  bottom += thickness * radius;
+  const GroundFrame frame{-ground_azimuth, camber};
   std::vector<Vec<dim>> corners;
-  const auto add_face = [&](const Vec<2>& from, const Vec<2>& to, double z) {
+  const auto add_face = [&](const Vec<2>& from, const Vec<2>& to, double across) {
     for (const Vec<2>& corner :
-         {Vec<2>{level - from[1], from[0]}, {bottom, from[0]}, {bottom, to[0]}, {level - to[1], to[0]}}) {
+         {Vec<2>{-from[1], from[0]}, {bottom, from[0]}, {bottom, to[0]}, {-to[1], to[0]}}) {
       Vec<dim> x{corner[0], corner[1]};
-      if constexpr (dim == 3) x[2] = z;
-      corners.push_back(rotated<dim>(x, ground_azimuth));
+      if constexpr (dim == 3) x[2] = across;
+      corners.push_back(frame.to_body<dim>(x));
+      if constexpr (dim == 3) corners.back()[2] += 0.5 * grid.width;
     }
   };
   std::vector<std::int32_t> ends;
   for (std::size_t i = 1; i < line.size(); ++i) {
     if (line[i][0] == line[i - 1][0]) continue;
-    add_face(line[i - 1], line[i], -beside);
-    if constexpr (dim == 3) add_face(line[i - 1], line[i], grid.width + beside);
+    add_face(line[i - 1], line[i], -half_width);
+    if constexpr (dim == 3) add_face(line[i - 1], line[i], half_width);
     ends.push_back(static_cast<std::int32_t>(corners.size()));
   }
   std::vector<std::int32_t> connectivity(corners.size());

@@ -35,9 +35,10 @@ template <int dim>
 void write_tread_vtu(const std::filesystem::path& path, const TreadContact<dim>& tread);
 
 /// A piece of the ground for ParaView: a rectangle, or in 3D a block, as long as the wheel, that the
-/// undeformed tread touches at this azimuth of the body frame [rad]. Throws OutputError.
+/// undeformed tread touches at this azimuth of the body frame, the wheel leaning on it by the camber [rad].
+/// Throws OutputError.
 template <int dim>
 void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& grid, double ground_azimuth,
-                      const Ground& ground = {});
+                      const Ground& ground = {}, double camber = 0);
 
 }  // namespace wheelwright

@@ -1,5 +1,7 @@
 #include "wheelwright/output/report/wheel_pictures.h"
 
+#include <algorithm>
+
 #include "wheelwright/base/units.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/output/report/deformed_svg.h"
@@ -25,6 +27,7 @@ DeformedPicture<dim> stress_picture(const PictureNames& names, const PositionFie
           .most_stressed_of = names.n_positions,
           .is_bonded = fields.is_bonded,
           .ground = fields.ground,
+          .camber = fields.camber,
           .window = {},
           .scalar = std::move(stress),
           .scale = ScaleKind::without_tail,
@@ -48,11 +51,11 @@ DeformedPicture<dim> with_displacement(DeformedPicture<dim> picture) {
 
 /// The same with the fatigue utilization of a turn instead.
 template <int dim>
-DeformedPicture<dim> with_fatigue(DeformedPicture<dim> picture, const RingField& utilization) {
-  RingField in_percent = utilization;
-  for (auto* values : {&in_percent.values, &in_percent.odd_values})
+DeformedPicture<dim> with_fatigue(DeformedPicture<dim> picture, NamedField utilization) {
+  for (auto* values : {&utilization.field.values, &utilization.field.odd_values})
     for (double& value : *values) value *= 100;
-  picture.scalar = {"fatigue utilization", "%", std::move(in_percent)};
+  std::ranges::replace(utilization.name, '_', ' ');
+  picture.scalar = {std::move(utilization.name), "%", std::move(utilization.field)};
   picture.peak = {};
   return picture;
 }

@@ -5,19 +5,13 @@
 
 #include "wheelwright/mechanics/state/fatigue_utilization.h"
 #include "wheelwright/mechanics/state/material_integral.h"
+#include "wheelwright/mechanics/state/place_in_body.h"
 #include "wheelwright/quantities/analysis/all_positions.h"
 
 namespace wheelwright {
 namespace {
 
 using Worst = FatigueResults::Worst;
-
-template <int dim>
-Vec<3> place_in_body(const PolarGrid<dim>& grid, int cell, const Vec<dim>& xi) {
-  Vec<3> place{};
-  std::ranges::copy(grid.polar_point(grid.cell_position(cell), xi), place.begin());
-  return place;
-}
 
 template <int dim>
 std::vector<Worst> worst_of_layers(const StateSolver<dim>& solver, const State<dim>& state) {
@@ -30,7 +24,7 @@ std::vector<Worst> worst_of_layers(const StateSolver<dim>& solver, const State<d
       const StrainsAtPoint<dim> point = cell.at(q);
       const double found = PointUtilization<dim>(point, of_layer.utilization).value();
       if (found > of_layer.utilization)
-        of_layer = {found, {}, place_in_body<dim>(grid, cell.cell, cell.points[q])};
+        of_layer = {found, {}, three_coordinates(place_in_body<dim>(grid, cell.cell, cell.points[q]))};
     }
   });
   for (std::size_t k = 0; k < worst.size(); ++k)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "wheelwright/mechanics/state/layer_measures.h"
+#include "wheelwright/mechanics/state/place_in_body.h"
 #include "wheelwright/mechanics/state/strain_peaks.h"
 
 namespace wheelwright {
@@ -18,12 +19,10 @@ std::vector<LayerResults> layer_results(const StateSolver<dim>& solver, const St
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const std::vector<double>& stress = peaks[k].von_mises;
     const auto worst = std::ranges::max_element(stress) - stress.begin();
-    Vec<3> place{};
-    std::ranges::copy(peaks[k].von_mises_places[worst], place.begin());
     result.push_back({.name = layers[k].name,
                       .mass = masses[k],
                       .peak_von_mises = stress[worst],
-                      .peak_place = place,
+                      .peak_place = three_coordinates(peaks[k].von_mises_places[worst]),
                       .peak_ground = state.positions().grounds[worst].azimuth(grid),
                       .largest_strain = std::ranges::max(peaks[k].principal)});
   }

@@ -126,7 +126,7 @@ FunctionalValue<dim> PeakTemperature<dim>::evaluate(const StateSolver<dim>& solv
   });
   const auto& layers = model.materials.layers();
   for (int layer = 0; layer < static_cast<int>(layers.size()); ++layer)
-    if (layers[layer].law->loss_factor().value_or(0) > 0)
+    if (layers[layer].law->loss_factor().value_or(0).largest() > 0)
       value.derivative.integrals.push_back({std::make_shared<WeightedHeat<dim>>(model, layer, adjoint),
                                             std::vector<double>(state.positions().size(), 1.0)});
   return value;

@@ -20,9 +20,8 @@ class RollingResistance : public Functional<dim> {
 
  private:
   std::optional<PartOfRing> part_;
-  double loss_factor_;  ///< of all strain energy
-  std::vector<std::shared_ptr<const LossDensity<dim>>>
-      differences_;  ///< of the layers with another loss factor
+  std::vector<LossFactor> of_layers_;
+  LossFactor of_all_;  ///< of all strain energy, from which those of layers may differ
 };
 
 }  // namespace wheelwright

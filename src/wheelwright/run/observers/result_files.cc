@@ -80,7 +80,7 @@ void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& sol
                             const LevelSet<dim>& shape, const State<dim>& first) {
   if (run.study.load_cases.size() > 1) make_subfolder(run.folder / "load_cases");
   for (std::size_t k = 1; k < run.study.load_cases.size(); ++k) {
-    const auto& [name, model] = run.study.load_cases[k];
+    const auto& [name, model, share] = run.study.load_cases[k];
     const auto state = first.under(with_loads(first.model(), model), Interrupt());
     if (!state) continue;
     write_wheel_pictures(run.folder / "load_cases",
@@ -120,7 +120,7 @@ void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>
   rolling_->write(shown.position, shown.fields);
   if (shown.position != most_stressed_position(solution)) return;
   PositionFields<dim> worst = shown.fields;
-  worst.fatigue = fatigue_field(*shown.ended.solver, solution);
+  worst.fatigue = fatigue_field(*shown.ended.solver, solution, run.study.load_cases);
   worst.temperature = temperature_picture(*shown.ended.solver, solution);
   write_surface(run, shape, worst);
   write_wheel_pictures(run.folder,

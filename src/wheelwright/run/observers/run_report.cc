@@ -183,17 +183,17 @@ template <int dim>
 std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel) {
   const Case shown = with_levels_of_results(c);
   std::vector<std::string> result{
-      "The material is linear elastic: no creep, and the same when it is warm. Whether it withstands the peak "
-      "stress is not assessed."};
+      fmt::format("The material is linear elastic: no creep, and the same when it is warm{}. Whether it "
+                  "withstands the peak stress is not assessed.",
+                  has_fatigue_limit(c) ? "" : ", no fatigue")};
   if (wheel.loaded)
     result.push_back(fmt::format(
         "Deformations are taken as small: this makes an error of about {:.2g} % in travel and stiffness, "
         "estimated from the computed deformation.",
         100 * wheel.loaded->deformation.error.size()));
-  result.push_back(fmt::format(
-      "Rolling is a sequence of {} load positions per sector, each in equilibrium: no inertia, no rolling "
-      "resistance.",
-      c.load.positions));
+  result.push_back(
+      fmt::format("Rolling is a sequence of {} load positions per sector, each in equilibrium: no inertia{}.",
+                  c.load.positions, has_loss_factor(c) ? "" : ", no rolling resistance"));
   if (const std::string peaks = bounded_peaks(c); !peaks.empty()) result.push_back(peaks);
   if (dim == 2)
     result.push_back(

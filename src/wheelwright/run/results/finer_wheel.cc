@@ -67,14 +67,10 @@ Expected<std::vector<FunctionValue>> values_of(std::span<const ShapeFunction<dim
                                                const LoadCases<dim>& cases, const StateSolver<dim>& solver,
                                                const LevelSet<dim>& shape, const SolvedStates<dim>& states) {
   if (!states) return states.failure();
-  StatesOfCases<dim> kept{*states};
-  for (std::size_t k = 1; k < cases.size(); ++k) {
-    auto other = (*states)->under(with_loads((*states)->model(), cases[k].model), Interrupt());
-    if (!other) return other.failure();
-    kept.push_back(*std::move(other));
-  }
-  std::vector<const State<dim>*> of_cases;
-  for (const auto& one : kept) of_cases.push_back(one.get());
+  const auto others = states_of_other_cases(**states, cases, Interrupt());
+  if (!others) return others.failure();
+  std::vector<const State<dim>*> of_cases{states->get()};
+  for (const auto& other : *others) of_cases.push_back(other.get());
   return function_values<dim>(solver, functions, shape, of_cases);
 }
 

@@ -23,7 +23,8 @@ void RollingFiles<dim>::write(int position, const PositionFields<dim>& fields) {
   const auto file = [&](const char* part) { return fmt::format("rolling/{}_{:02d}.vtu", part, position); };
   mesh_.write(run_ / file("wheel"), named_fields(fields));
   write_tread_vtu<dim>(run_ / file("tread"), treads_[position]);
-  write_ground_vtu(run_ / file("ground"), fields.lattice.grid(), fields.ground_azimuth, fields.ground);
+  write_ground_vtu(run_ / file("ground"), fields.lattice.grid(), fields.ground_azimuth, fields.ground,
+                   fields.camber);
   const double degrees = fields.ground_azimuth * 180 / std::numbers::pi;
   for (const char* part : {"wheel", "tread", "ground"})
     entries_.push_back({degrees, file(part), static_cast<int>(entries_.size() % 3), part});

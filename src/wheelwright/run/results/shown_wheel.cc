@@ -31,7 +31,7 @@ FieldPoints<3> vertices(const SurfaceMesh& surface, const SolvedShape<3>& solved
 
 SurfacePosition on_points(const PositionFields<3>& fields, const FieldPoints<3>& points) {
   return {fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
-          points.values(von_mises_field(fields.stress))[0]};
+          points.values(von_mises_field(fields.stress))[0], shown_ground(fields)};
 }
 
 std::string loaded_json(const SolvedShape<2>& solved, const PositionFields<2>& fields) {

@@ -94,13 +94,29 @@ std::string contact_report(const Case& c) {
               fmt::format("{:.1f} of {:.4g} mm", cells_per_contact_patch(c), tread_cell_width(c) * 1e3));
 }
 
-/// How well the load positions resolve the rolling resistance.
+bool depends_on_frequency(const Case& c) {
+  return std::ranges::any_of(placed_materials(c), [](const PlacedMaterial& placed) {
+    return placed.loss_factor() && !placed.loss_factor()->table().empty();
+  });
+}
+
+/// How well the load positions resolve the rolling resistance, and at which frequencies the material is
+/// strained if its losses depend on them.
 std::string losses_report(const Case& c) {
   if (!has_loss_factor(c)) return "";
+  std::string frequencies;
+  if (depends_on_frequency(c)) {
+    const auto [turn, contact, last] = strain_frequencies(c);
+    frequencies = line("strain frequencies",
+                       fmt::format("{:.3g} Hz (turn) to {:.3g} Hz (load positions), near the contact mostly "
+                                   "below {:.3g} Hz",
+                                   turn, last, contact));
+  }
   return line("rolling resistance",
               fmt::format("load positions {:.3g} mm apart at the tread leave out about {:.2g} % of it",
                           2 * std::numbers::pi * c.wheel.outer_radius / total_load_positions(c) * 1e3,
-                          100 * unresolved_losses(c)));
+                          100 * unresolved_losses(c))) +
+         frequencies;
 }
 
 std::string time_report(const Case& c) {
@@ -229,6 +245,27 @@ std::vector<std::string> unequal_rows(const Case& c) {
                       name, radius, ratio, remedy)};
 }
 
+/// Loss factors that are not known where the material is mostly strained.
+std::vector<std::string> unknown_frequencies(const Case& c) {
+  std::vector<std::string> result;
+  for (const Case& single : single_load_cases(c))
+    for (const PlacedMaterial& placed : placed_materials(c)) {
+      const auto& factor = placed.loss_factor();
+      const auto& table = factor->table();
+      const StrainFrequencies strained = strain_frequencies(single);
+      if (table.empty() || single.load.speed == 0 ||
+          (strained.turn >= table.front()[0] && strained.contact <= table.back()[0]))
+        continue;
+      result.push_back(fmt::format(
+          "{} is given from {} to {} Hz, and the wheel is strained from {:.3g} to {:.3g} Hz at {} m/s: "
+          "beyond "
+          "its ends the loss factor is taken as constant",
+          placed.loss_factor_key().path(), number_text(table.front()[0]), number_text(table.back()[0]),
+          strained.turn, strained.contact, number_text(single.load.speed)));
+    }
+  return result;
+}
+
 /// Where the numbers of the losses would be poor.
 std::vector<std::string> warnings_of_losses(const Case& c) {
   constexpr double much = 0.05, little = 0.01, large_factor = 0.3;
@@ -242,11 +279,12 @@ std::vector<std::string> warnings_of_losses(const Case& c) {
         key_of(&Load::positions).path(), c.load.positions, 100 * share, 2e3 * likely_half_width(worst),
         positions_for_losses(worst, little), 100 * little, positions_for_losses(worst, little)));
   for (const PlacedMaterial& placed : placed_materials(c))
-    if (*placed.loss_factor() > large_factor)
+    if (placed.loss_factor()->largest() > large_factor)
       result.push_back(fmt::format(
           "{} has the loss factor {}: the rolling resistance is of first order in it, and a rough estimate "
           "above {:g}",
-          placed.name, number_text(*placed.loss_factor()), large_factor));
+          placed.name, number_text(placed.loss_factor()->largest()), large_factor));
+  std::ranges::move(unknown_frequencies(c), std::back_inserter(result));
   return result;
 }
 
@@ -284,6 +322,12 @@ std::string bounds_report(const Case& c) {
   return report;
 }
 
+std::string load_case_text(const CaseLoad& load_case) {
+  const auto& share = load_case.distance_share;
+  return fmt::format("{}, weight {:.6g}{}", load_case.name, load_case.weight,
+                     share ? fmt::format(", {:.6g} % of the distance", 100 * *share) : "");
+}
+
 }  // namespace
 
 std::string derived_report(const Case& c) {
@@ -295,9 +339,8 @@ std::string derived_report(const Case& c) {
   finest.grid.tread_levels = tread_levels(c);
   for (std::size_t k = 0; k < c.load.cases.size(); ++k) {
     const Case single = with_load_case(finest, static_cast<int>(k));
-    report +=
-        line("load case", fmt::format("{}, weight {:.6g}", c.load.cases[k].name, c.load.cases[k].weight)) +
-        load_report(single) + contact_report(single) + losses_report(single);
+    report += line("load case", load_case_text(c.load.cases[k])) + load_report(single) +
+              contact_report(single) + losses_report(single);
   }
   return report + material_report(c) + size_report(c) + bounds_report(c);
 }

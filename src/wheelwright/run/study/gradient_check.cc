@@ -6,18 +6,23 @@
 #include <set>
 #include <tuple>
 
+#include "wheelwright/case/design_radii.h"
 #include "wheelwright/run/study/bounded_functions.h"
+#include "wheelwright/shape/geometry/moved_lines.h"
 
 namespace wheelwright {
 namespace {
 
-constexpr int n_directions = 4;
+constexpr int n_paths = 4;
 constexpr int halvings = 3;
 
 /// The largest step, in units of the resolution. In 3D the cut quadrature is less accurate, so that the last
 /// remainders of smaller steps would be quadrature errors.
 template <int dim>
 constexpr double largest_step = dim == 2 ? 1e-3 : 4e-3;
+
+/// The same of radii.
+constexpr double largest_step_of_radius = 1e-2;
 
 /// A field with several wavelengths, equal in all sectors, of size 1.
 template <int dim>
@@ -111,21 +116,41 @@ std::set<std::tuple<int, int, int, bool>> contact_status(const Evaluated<dim>& e
   return status;
 }
 
+/// A path of shapes, or of radii, on which functions are tested.
 template <int dim>
-using EvaluateLevelSet = std::function<Expected<Evaluated<dim>>(const LevelSet<dim>&)>;
+struct TestPath {
+  std::function<Expected<Evaluated<dim>>(double)> at;  ///< a place of the path, which starts at 0
+  std::function<std::vector<double>(const Evaluation<dim>&)> derivatives;  ///< of all functions at the start
+  double step;                                                             ///< the largest one
+};
 
 /// The largest tried step within which no point changes its contact status, or else the smallest one.
 template <int dim>
-Expected<double> step_of_one_status(const EvaluateLevelSet<dim>& evaluate, const Evaluated<dim>& start,
-                                    const LevelSet<dim>& psi, const std::vector<double>& direction,
-                                    double step) {
+Expected<double> step_of_one_status(const TestPath<dim>& path, const Evaluated<dim>& start) {
   constexpr int most_reductions = 3;
+  double step = path.step;
   for (int k = 0; k < most_reductions; ++k, step /= 4) {
-    const auto trial = evaluate(moved(psi, direction, step));
+    const auto trial = path.at(step);
     if (!trial) return trial.failure();
     if (contact_status(*trial) == contact_status(start)) break;
   }
   return step;
+}
+
+template <int dim>
+Expected<std::vector<TaylorTest>> tests_on(const TestPath<dim>& path) {
+  const auto start = path.at(0);
+  if (!start) return start.failure();
+  const auto step = step_of_one_status(path, *start);
+  if (!step) return step.failure();
+  const std::function<Expected<Evaluation<dim>>(double)> evaluation_at =
+      [&](double t) -> Expected<Evaluation<dim>> {
+    auto evaluated = path.at(t);
+    if (!evaluated) return evaluated.failure();
+    return std::move(evaluated->evaluation);
+  };
+  return taylor_tests<dim>(evaluation_at, start->evaluation, path.derivatives(start->evaluation), *step,
+                           halvings);
 }
 
 /// Whether a function has the gradient of a smooth approximation.
@@ -136,6 +161,51 @@ bool is_smoothed(const ShapeFunction<dim>& function) {
 
 bool is_better(const GradientCheck& a, const GradientCheck& b) {
   return std::pair(a.passed(), a.lowest_order()) > std::pair(b.passed(), b.lowest_order());
+}
+
+/// The best test of every function on paths by number, until all pass. `failure`: the result if there is no
+/// path.
+template <int dim>
+Expected<std::vector<GradientCheck>> best_checks(
+    const std::vector<ShapeFunction<dim>>& functions,
+    const std::function<std::optional<TestPath<dim>>(int)>& path_of_number, Failure failure) {
+  std::vector<GradientCheck> best;
+  for (int k = 0; k < n_paths && (best.empty() || std::ranges::any_of(best, &GradientCheck::failed)); ++k) {
+    const auto path = path_of_number(k);
+    if (!path) continue;
+    const auto tests = tests_on(*path);
+    if (!tests) {
+      failure = tests.failure();
+      continue;
+    }
+    for (size_t i = 0; i < tests->size(); ++i) {
+      GradientCheck check{functions[i].name, (*tests)[i], is_smoothed(functions[i])};
+      if (best.size() <= i)
+        best.push_back(std::move(check));
+      else if (is_better(check, best[i]))
+        best[i] = std::move(check);
+    }
+  }
+  if (best.empty()) return failure;
+  return best;
+}
+
+template <int dim>
+Expected<Evaluated<dim>> evaluated(const Study<dim>& study, const LevelSet<dim>& psi,
+                                   const Interrupt& interrupt) {
+  return evaluate<dim>(*study.solver, study.functions, psi, nullptr, interrupt, study.load_cases);
+}
+
+/// The same with one of the design lines at another radius, in whose rows the shape keeps its place.
+template <int dim>
+Expected<Evaluated<dim>> evaluated_at_radius(const Study<dim>& study, const LevelSet<dim>& shape, int line,
+                                             double radius, const Interrupt& interrupt) {
+  const PolarGrid<dim> grid = with_fixed_line_at(shape.lattice.grid(), line, radius);
+  const auto c = with_radii_of(study.source, grid, study.level);
+  if (!c) return Failure{FailureReason::unsupported_model, "the grid does not have the lines of the case"};
+  const auto moved = make_study<dim>(*c, study.level);
+  if (!moved) return moved.failure();
+  return evaluated(*moved, {Lattice<dim>(grid, shape.lattice.degree()), shape.values}, interrupt);
 }
 
 }  // namespace
@@ -185,56 +255,62 @@ std::vector<double> test_direction(const LevelSet<dim>& psi, int number, double 
 template <int dim>
 Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>& study, const LevelSet<dim>& shape,
                                                      const Interrupt& interrupt) {
-  const EvaluateLevelSet<dim> evaluate = [&](const LevelSet<dim>& psi) {
-    return wheelwright::evaluate<dim>(*study.solver, study.functions, psi, nullptr, interrupt,
-                                      study.load_cases);
-  };
-  std::vector<GradientCheck> best;
-  Failure failure{FailureReason::empty_shape,
-                  "the wheel has no boundary that can move: no holes, or only holes on protected bands"};
-  for (int k = 0; k < n_directions && (best.empty() || std::ranges::any_of(best, &GradientCheck::failed));
-       ++k) {
-    double step = largest_step<dim> * shape.lattice.grid().resolution();
-    const std::vector<double> direction = test_direction(shape, k, 3 * step);
-    if (!moves_boundary(shape, direction)) continue;
+  const double step = largest_step<dim> * shape.lattice.grid().resolution();
+  const auto path_of_number = [&](int number) -> std::optional<TestPath<dim>> {
+    const std::vector<double> direction = test_direction(shape, number, 3 * step);
+    if (!moves_boundary(shape, direction)) return {};
     // At the shape itself edges may lie on nodes, and a symmetric wheel is solved only in part.
     const LevelSet<dim> beside = moved(shape, direction, 2 * step);
-    const auto start = evaluate(beside);
-    if (!start) {
-      failure = start.failure();
-      continue;
-    }
-    const auto stable = step_of_one_status(evaluate, *start, beside, direction, step);
-    if (!stable) {
-      failure = stable.failure();
-      continue;
-    }
-    const auto tests = taylor_tests<dim>(
-        [&](const LevelSet<dim>& psi) -> Expected<Evaluation<dim>> {
-          auto evaluated = evaluate(psi);
-          if (!evaluated) return evaluated.failure();
-          return std::move(evaluated->evaluation);
+    return TestPath<dim>{
+        [=, &study](double t) { return evaluated(study, moved(beside, direction, t), interrupt); },
+        [=, &study](const Evaluation<dim>& start) {
+          return directional_derivatives(start, beside, direction, study.model().degree);
         },
-        start->evaluation, beside, direction, study.model().degree, *stable, halvings);
-    if (!tests) {
-      failure = tests.failure();
-      continue;
-    }
-    for (size_t i = 0; i < tests->size(); ++i) {
-      GradientCheck check{study.functions[i].name, (*tests)[i], is_smoothed(study.functions[i])};
-      if (best.size() <= i)
-        best.push_back(std::move(check));
-      else if (is_better(check, best[i]))
-        best[i] = std::move(check);
+        step};
+  };
+  return best_checks<dim>(
+      study.functions, path_of_number,
+      {FailureReason::empty_shape,
+       "the wheel has no boundary that can move: no holes, or only holes on protected bands"});
+}
+
+template <int dim>
+Expected<std::vector<GradientCheck>> check_radii(const Study<dim>& study, const LevelSet<dim>& shape,
+                                                 const Interrupt& interrupt) {
+  std::vector<GradientCheck> all;
+  const auto radii = design_radii(study.computed());
+  const std::vector<int>& lines = study.model().design_lines;
+  for (size_t k = 0; k < lines.size(); ++k) {
+    const double step = largest_step_of_radius * shape.lattice.grid().resolution(),
+                 radius = radius_of_fixed_line(shape.lattice.grid(), lines[k]);
+    const auto path_of_number = [&](int number) {
+      return std::optional(TestPath<dim>{[&, from = radius + 2 * number * step](double t) {
+                                           return evaluated_at_radius(study, shape, lines[k], from + t,
+                                                                      interrupt);
+                                         },
+                                         [&](const Evaluation<dim>& start) {
+                                           std::vector<double> derivatives;
+                                           for (const FunctionValue& function : start.functions)
+                                             derivatives.push_back(function.by_radius[k]);
+                                           return derivatives;
+                                         },
+                                         step});
+    };
+    auto checks = best_checks<dim>(study.functions, path_of_number, {});
+    if (!checks) return checks.failure();
+    for (GradientCheck& check : *checks) {
+      check.radius = radii[k].name;
+      all.push_back(std::move(check));
     }
   }
-  if (best.empty()) return failure;
-  return best;
+  return all;
 }
 
 template decltype(test_direction<2>) test_direction<2>;
 template decltype(check_gradients<2>) check_gradients<2>;
+template decltype(check_radii<2>) check_radii<2>;
 template decltype(test_direction<3>) test_direction<3>;
 template decltype(check_gradients<3>) check_gradients<3>;
+template decltype(check_radii<3>) check_radii<3>;
 
 }  // namespace wheelwright

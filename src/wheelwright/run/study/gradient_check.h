@@ -5,7 +5,7 @@
 
 namespace wheelwright {
 
-/// The Taylor test of one function's shape gradient.
+/// The Taylor test of one function's shape gradient, or of its derivative with respect to a radius.
 struct GradientCheck {
   static constexpr double wanted_order = 1.9, max_error = 0.1;
 
@@ -14,6 +14,7 @@ struct GradientCheck {
   /// Whether the function is a maximum, whose gradient is deliberately that of a smooth approximation: a
   /// p-norm (PeakNorm) or a smooth maximum over the positions. Its value is no reference for that gradient.
   bool is_smoothed = false;
+  std::string radius = {};  ///< DesignRadius::name; empty: the shape's gradient
 
   /// Whether the remainder of a step is rounding.
   bool is_rounding(size_t step) const;
@@ -46,5 +47,12 @@ std::vector<double> test_direction(const LevelSet<dim>& psi, int number, double 
 template <int dim>
 Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>& study, const LevelSet<dim>& shape,
                                                      const Interrupt& interrupt = {});
+
+/// Tests the derivatives of all functions of a study with respect to the radii of layers that its case
+/// chooses (case/design_radii.h), radius by radius; the shape moves with the rows of cells. Steps and
+/// retries, from other radii, are as for gradients. Empty if there are no such radii.
+template <int dim>
+Expected<std::vector<GradientCheck>> check_radii(const Study<dim>& study, const LevelSet<dim>& shape,
+                                                 const Interrupt& interrupt = {});
 
 }  // namespace wheelwright

@@ -94,7 +94,7 @@ LoadCases<dim> load_cases(const Case& c) {
   const std::vector<Case> single = single_load_cases(c);
   for (std::size_t k = 0; k < single.size(); ++k) {
     model.loads() = applied_loads<dim>(single[k], model);
-    result.push_back({c.load.cases[k].name, model});
+    result.push_back({c.load.cases[k].name, model, c.load.cases[k].distance_share});
   }
   return result;
 }

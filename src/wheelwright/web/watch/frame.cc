@@ -109,8 +109,7 @@ Json wheel_json(const WatchedShape<dim>& shape) {
             {"hole_inner_radius_m", room.inner},
             {"hole_outer_radius_m", room.outer},
             {"cell_m", grid.resolution()},
-            {"stands_on_ground",
-             shape.source->contact.with == Counterpart::ground && shape.source->load.ground == "flat"}};
+            {"stands_on_ground", shape.source->contact.with == Counterpart::ground}};
   if (const LayerCircles layers = layer_circles(materials<dim>(*shape.source)); !layers.empty())
     json["layers"] = {{"radii_m", layers.radii}, {"names", layers.names}};
   return json;

@@ -160,6 +160,22 @@ const parts = (() => {
         polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 }));
     let surface = null, full = 0, places = null, shades = null, edges = null;
     const between = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0xb8bec6 }));
+    const ground = new THREE.Mesh(new THREE.BufferGeometry(),
+      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide }));
+    const groundBorder = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
+    const takeGround = (fields) => {
+      const made = grounds.surface(grounds.outlineOf(fields, radius, 1.1 * radius), 0.5 * run.width_m + 0.25 * radius);
+      for (const [object, vertices] of [[ground, made.corners], [groundBorder, made.border]]) {
+        object.geometry.dispose();
+        object.geometry = new THREE.BufferGeometry();
+        object.geometry.setAttribute("position", new THREE.BufferAttribute(made.places, 3));
+        object.geometry.setIndex(new THREE.BufferAttribute(vertices, 1));
+        object.rotation.x = -(fields.camber_rad ?? 0);
+        object.position.y = -0.001 * radius;
+      }
+      ground.visible = made.corners.length > 0;
+      groundBorder.visible = ground.visible && fields.ground_m !== undefined;
+    };
     const kinds = {};
     // Replaces the shape by another one of the same wheel, or its load positions; visible when painted.
     let taken = {};
@@ -169,6 +185,7 @@ const parts = (() => {
       surface = isSame ? { ...surface, positions: surfacePositions(fields) } : wheelSurface({ ...run, fields });
       full = fields.full_displacement_m / 32767;
       Object.assign(kinds, colourings(fields, surface.positions));
+      takeGround(fields);
       if (isSame) return;
       places = new Float32Array(3 * surface.sources.length);
       shades = new Float32Array(3 * surface.sources.length);
@@ -183,14 +200,10 @@ const parts = (() => {
       between.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * edges.length), 3));
     };
     take(run.fields);
-    const ground = new THREE.Mesh(new THREE.PlaneBufferGeometry(2.2 * radius, run.width_m + 0.5 * radius),
-      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide }));
-    ground.rotation.x = -Math.PI / 2;
-    ground.position.y = -radius * 1.001;
     const before = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
     before.visible = false;
     const turned = new THREE.Group(), scene = new THREE.Scene();
-    turned.add(wheel, ground, before, between);
+    turned.add(wheel, ground, groundBorder, before, between);
     scene.add(turned, new THREE.HemisphereLight(0xffffff, 0xc8c8d0, 0.75));
     const key = new THREE.DirectionalLight(0xffffff, 0.55);
     key.position.set(-0.5, 0.8, 1);
@@ -207,7 +220,7 @@ const parts = (() => {
       camera.updateProjectionMatrix();
       turned.rotation.set(view.pitch, view.yaw, 0);
       turned.scale.setScalar(1 / radius);
-      ground.material.color.set(colour("--quiet"));
+      for (const { material } of [ground, groundBorder]) material.color.set(colour("--quiet"));
       before.material.color.set(colour("--ghost") || colour("--bad"));
       renderer.render(scene, camera);
     };
@@ -282,45 +295,43 @@ const parts = (() => {
     return Object.assign(paint, { kinds, take, takeGhost, showGhost, draw, resize, fit });
   }
 
-  // Ground that is not flat, by its outline: along it and up from the axle.
-  function drawOutline(context, size, outline, outer) {
-    const scale = 0.45 * size / outer, x = ([along]) => 0.5 * size + scale * along, y = ([, up]) => 0.5 * size - scale * up;
+  // The solid ground through pixels in ascending order from left to right, down to the canvas's edge, with a line of this width
+  // as its edge, and hatches at intervals of `step`.
+  function paintGround(context, pixels, { line, step, hatchInk, hatchLine }) {
+    if (pixels.length === 0) return;
+    const bottom = pixels.reduce((lowest, [, y]) => Math.max(lowest, y), context.canvas.height);
+    const edge = new Path2D(), body = new Path2D(), hatches = new Path2D();
+    for (const [x, y] of pixels) edge.lineTo(x, y);
+    body.addPath(edge);
+    body.lineTo(pixels[pixels.length - 1][0], bottom);
+    body.lineTo(pixels[0][0], bottom);
+    body.closePath();
+    for (const [x, y] of grounds.feet(pixels, step, context.canvas.width + 2 * step)) {
+      hatches.moveTo(x, y);
+      hatches.lineTo(x - step, y + step);
+    }
     context.fillStyle = colour("--panel");
-    context.beginPath();
-    context.moveTo(x(outline[0]), 2 * size);
-    for (const place of outline) context.lineTo(x(place), y(place));
-    context.lineTo(x(outline[outline.length - 1]), 2 * size);
-    context.fill();
+    context.fill(body);
+    context.save();
+    context.clip(body);
+    context.strokeStyle = hatchInk;
+    context.lineWidth = hatchLine;
+    context.stroke(hatches);
+    context.restore();
     context.strokeStyle = colour("--ink");
-    context.lineWidth = size / 300;
-    context.beginPath();
-    for (const place of outline) context.lineTo(x(place), y(place));
-    context.stroke();
+    context.lineWidth = line;
+    context.stroke(edge);
   }
 
-  // The ground, flat and solid. Near the contact, magnified displacements move the tread slightly below it.
+  // The ground below a plane wheel in a square canvas. Near the contact, magnified displacements move the tread slightly
+  // below it.
   function drawGround(canvas, run) {
     const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
-    const context = canvas.getContext("2d"), level = 0.95 * size, step = size / 60;
-    if (run.fields.ground_m) {
-      drawOutline(context, size, run.fields.ground_m, run.outer_radius_m);
-      return;
-    }
-    context.fillStyle = colour("--panel");
-    context.fillRect(0, level, size, size - level);
-    context.strokeStyle = colour("--ink");
-    context.lineWidth = size / 300;
-    context.beginPath();
-    context.moveTo(0, level);
-    context.lineTo(size, level);
-    context.stroke();
-    context.lineWidth /= 2;
-    context.beginPath();
-    for (let x = 0; x < size + step; x += step) {
-      context.moveTo(x, level);
-      context.lineTo(x - step, level + step);
-    }
-    context.stroke();
+    const scale = 0.45 * size / run.outer_radius_m;
+    const pixels = grounds.outlineOf(run.fields, run.outer_radius_m, 2 * run.outer_radius_m)
+      .map(([along, up]) => [0.5 * size + scale * along, 0.5 * size - scale * up]);
+    paintGround(canvas.getContext("2d"), pixels,
+      { line: size / 300, step: size / 60, hatchInk: colour("--ink"), hatchLine: size / 600 });
   }
 
   // --- The wheel as it is cut -------------------------------------------------------------------------
@@ -412,5 +423,5 @@ const parts = (() => {
     return { figure, start, update, recolour };
   }
 
-  return { colour, element, wheelPainter, layerPainter, strokeLayers, surfacePainter, drawGround, wheelPath, paintWheel, chart };
+  return { colour, element, wheelPainter, layerPainter, strokeLayers, surfacePainter, paintGround, drawGround, wheelPath, paintWheel, chart };
 })();

@@ -2,7 +2,7 @@
 // The wheel on its ground: the loaded wheel at one load position, coloured by stress, overlaid by the edges of the
 // newest shape, which may be newer than the colours. Coordinates and frames are those of planeView.
 const stage = (() => {
-  const { colour, strokeLayers, wheelPainter } = parts, { steadyMagnification } = formats, { bytes, layerEdges } = meshes;
+  const { colour, strokeLayers, paintGround, wheelPainter } = parts, { steadyMagnification } = formats, { bytes, layerEdges } = meshes;
   const { turned, copiesOf, pointsOf, nearestInWheel, smoothShares, circlePoints } = planeView;
 
   function make(overlay, picture, wheel) {
@@ -10,6 +10,8 @@ const stage = (() => {
     const view = planeView.make(outer, hasGround), { toPixel } = view;
     let painter = null, fields = null, field = null, mesh = null, size = { width: 1, height: 1, ratio: 1 };
     let turn = -Math.PI / 2, magnified = 1, isLoaded = true, painted = {};
+    // The wheel is drawn flat where it touches flat ground; other ground covers what magnified displacements move below it.
+    const isFlat = () => hasGround && !fields?.ground_m, lowest = () => isFlat() ? -outer : -1e9;
 
     // Sets the loaded wheel at a load position, as received from the server.
     function take(loaded) {
@@ -37,10 +39,10 @@ const stage = (() => {
       return [magnified * field.full * field.x[k], magnified * field.full * field.y[k]];
     }
 
-    // The pixel of a displaced point of the body. No point of the wheel is below its ground.
+    // The pixel of a displaced point of the body. No point of the wheel is below flat ground.
     function pixelOf(point) {
       const [x, y] = turned(point, turn);
-      return toPixel([x, hasGround ? Math.max(y, -outer) : y]);
+      return toPixel([x, Math.max(y, lowest())]);
     }
 
     // The drawn position of a point of the body.
@@ -147,27 +149,21 @@ const stage = (() => {
       if (overlay.height !== size.height) overlay.height = size.height;
     }
 
-    function paintGround(context) {
+    // The outline of the ground in pixels, from edge to edge if it is flat.
+    function groundPixels() {
+      if (!isFlat()) return fields.ground_m.map(toPixel);
+      const level = Math.round(toPixel([0, -outer])[1]), beyond = 22 * size.ratio;
+      return [[-beyond, level], [size.width + beyond, level]];
+    }
+
+    function drawGround(context) {
       if (!hasGround) return;
-      const { width, height, ratio } = size, level = Math.round(toPixel([0, -outer])[1]), step = 11 * ratio;
-      overlay.dataset.ground = String(level / ratio);
-      if (level > height) return;
-      context.fillStyle = colour("--panel");
-      context.fillRect(0, level, width, height - level);
-      context.strokeStyle = colour("--line");
-      context.lineWidth = ratio;
-      context.beginPath();
-      for (let x = 0; x < width + 2 * step; x += step) {
-        context.moveTo(x, level);
-        context.lineTo(x - step, level + step);
-      }
-      context.stroke();
-      context.strokeStyle = colour("--ink");
-      context.lineWidth = 1.5 * ratio;
-      context.beginPath();
-      context.moveTo(0, level + 0.75 * ratio);
-      context.lineTo(width, level + 0.75 * ratio);
-      context.stroke();
+      const { ratio } = size, pixels = groundPixels();
+      overlay.dataset.ground = String(grounds.heightAt(pixels, toPixel([0, 0])[0]) / ratio);
+      context.save();
+      context.translate(0, 0.75 * ratio);  // half of the line
+      paintGround(context, pixels, { line: 1.5 * ratio, step: 11 * ratio, hatchInk: colour("--line"), hatchLine: ratio });
+      context.restore();
     }
 
     // The coloured wheel is on a separate canvas below the edges, which is kept while only they change.
@@ -186,7 +182,7 @@ const stage = (() => {
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, width, height);
       const [cx, cy] = view.middle(), s = view.scale();
-      paintStress({ ...size, scale: s, x: cx, y: cy, ground: hasGround ? -outer : -1e9, brightest });
+      paintStress({ ...size, scale: s, x: cx, y: cy, ground: lowest(), brightest });
       const edges = outlinePath(outline), rim = circlePath(inner, 0), tread = circlePath(outer, 1);
       if (!painter) {
         const ring = new Path2D(rim);
@@ -213,7 +209,7 @@ const stage = (() => {
         context.stroke(smoothPath(ghost));
         context.restore();
       }
-      paintGround(context);
+      drawGround(context);
       const axle = toPixel([0, 0]);
       overlay.dataset.view = JSON.stringify({ scale: s / ratio, x: axle[0] / ratio, y: axle[1] / ratio, turn });
       return context;
