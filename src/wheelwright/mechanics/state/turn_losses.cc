@@ -128,8 +128,7 @@ bool LossDensity<dim>::covers(const PolarGrid<dim>& grid, int row) const {
 template <int dim>
 LossOfTurn<dim>::LossOfTurn(const RollingModel<dim>& model, const LossFactor& loss_factor) {
   const TurnHarmonics turn(model.n_positions, model.grid.n_sectors);
-  const auto forces =
-      forces_by_energy<dim>(model.grid, loss_factors(model, turn.n_harmonics(), loss_factor));
+  const auto forces = forces_by_energy<dim>(model.grid, loss_factors(model, turn.n_harmonics(), loss_factor));
   waves_ = turn.waves();
   for (int wave = 0; wave < turn.n_cases(); ++wave)
     factors_.push_back(forces[TurnHarmonics::harmonic(wave)] / model.n_positions);

@@ -182,10 +182,10 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary, co
 template <int dim>
 std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel) {
   const Case shown = with_levels_of_results(c);
-  std::vector<std::string> result{fmt::format(
-      "The material is linear elastic: no creep, and the same when it is warm{}. Whether it withstands the "
-      "peak stress is not assessed.",
-      has_fatigue_limit(c) ? "" : "; no fatigue")};
+  std::vector<std::string> result{
+      fmt::format("The material is linear elastic: no creep, and the same when it is warm{}. Whether it "
+                  "withstands the peak stress is not assessed.",
+                  has_fatigue_limit(c) ? "" : ", no fatigue")};
   if (wheel.loaded)
     result.push_back(fmt::format(
         "Deformations are taken as small: this makes an error of about {:.2g} % in travel and stiffness, "
