@@ -670,6 +670,7 @@ TEST(Layers, AreNamedByBoundsTermsAndExpectations) {
   EXPECT_FALSE(quantity_of(c, c.constraints[0]) == quantity_of(c, c.constraints[1]));
   const Quantity mass = quantity_of(c, c.objective.terms[0]);
   EXPECT_EQ(number_key(mass, 2), "mass_kg of tyre");
+  EXPECT_EQ(number_key(built_in("peak_temperature"), 2), "peak_temperature_deg_C");
   EXPECT_EQ(mass->part->inner, 0.09);
   EXPECT_FALSE(holds_volume(c));
 

@@ -12,20 +12,26 @@ void heat_conflicts(const Case& c, Conflicts& found) {
   const auto add = [&](CaseKeys keys, std::string problem, std::string remedy) {
     found.push_back({std::move(keys), std::move(problem), std::move(remedy)});
   };
-  const CaseKey section{std::string(heat_section().name)};
+  // The section, and its keys, one of which is given.
+  const auto of_section = [](const CaseKey& key) {
+    CaseKeys keys{CaseKey{std::string(heat_section().name)}, key};
+    for (const auto& of_heat : heat_section().keys)
+      keys.push_back({std::string(heat_section().name), {of_heat.name}});
+    return keys;
+  };
   if (!cooling(c))
-    add({section, key_of(&Heat::convection), key_of(&Heat::rim_temperature)},
-        "nothing takes the heat of the wheel", "set heat.convection or heat.rim_temperature");
+    add(of_section(key_of(&Heat::convection)), "nothing takes the heat of the wheel",
+        "set heat.convection or heat.rim_temperature");
   if (!has_loss_factor(c))
-    add({section, key_of(&Material::loss_factor)}, "the heat comes from the loss factors of all materials",
+    add(of_section(key_of(&Material::loss_factor)), "the heat comes from the loss factors of all materials",
         "set material.loss_factor" + of_layers + "; 0 for one without losses");
   if (!has_conductivity(c))
-    add({section, key_of(&Material::conductivity)},
+    add(of_section(key_of(&Material::conductivity)),
         "how warm the wheel gets needs the conductivity of every material",
         "set material.conductivity" + of_layers);
   const auto loads = single_loads(c);
   if (std::ranges::all_of(loads, [](const SingleLoad& single) { return single.c.load.speed == 0; }))
-    add({section, loads.front().key(&Load::speed)}, "how warm the wheel gets depends on its speed",
+    add(of_section(loads.front().key(&Load::speed)), "how warm the wheel gets depends on its speed",
         "set load.speed");
   if (c.wheel.dimension == 3 && c.wheel.side_faces == SideFaces::symmetric &&
       c.heat.side_convection.value_or(0) > 0)

@@ -489,7 +489,10 @@ const toml::table* find_table(Reading& reading, const toml::table& root, std::st
 template <class Struct>
 void read_section(Reading& reading, const toml::table& root, const Section<Struct>& section, Case& out) {
   const toml::table* table = section.name.empty() ? &root : find_table(reading, root, section.name);
-  if (table) read_table(reading, std::string(section.name), *table, bound(section.keys, section.in(out)));
+  if (!table) return;
+  const std::string name(section.name);
+  if (const auto [line, column] = node_place(*table); line > 0) reading.entries[name] = {line, column, ""};
+  read_table(reading, name, *table, bound(section.keys, section.in(out)));
 }
 
 template <class Struct>

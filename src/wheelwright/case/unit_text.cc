@@ -38,6 +38,9 @@ const std::vector<UnitsOfKind>& known_units() {
       {{"N/rad"}},
       {{"m^2"}},
       {{"m^3"}, {"mm^3", 1, 1e9}},
+      {{"deg C"}},
+      {{"W/(m K)"}},
+      {{"W/(m^2 K)"}},
       {{"turns below a cell"}},
       {{"-"}, {"%", 1, 100}}};
   return kinds;
