@@ -5,14 +5,18 @@
 #include <cmath>
 #include <ctime>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <regex>
+#include <stdexcept>
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/quantities/analysis/fatigue_results.h"
+#include "wheelwright/quantities/analysis/heat_results.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
@@ -189,6 +193,69 @@ void expect_finite_resistances(int n, unsigned seed) {
 TEST(RandomWheels, HaveARollingResistance) { expect_finite_resistances<RandomWheels>(6, 2); }
 TEST(RandomWheels, HaveARollingResistanceSlow) { expect_finite_resistances<RandomWheels>(200, 1); }
 TEST(LayeredWheels, HaveARollingResistanceSlow) { expect_finite_resistances<LayeredWheels>(60, 3); }
+
+/// What a wheel's turns wear and how warm they make it, solved anew; nothing if it is not accepted or not
+/// solved.
+struct WearAndHeat {
+  double utilization, temperature, heat, given_away;
+};
+std::optional<WearAndHeat> wear_and_heat(const Case& drawn) {
+  const CaseResult read = parse_case(to_toml(drawn), "random.toml");
+  if (!read.value) return {};
+  const auto solver = make_solver(rolling_model<2>(*read.value));
+  if (!solver) return {};
+  const LevelSet<2> shape = initial_shape<2>(*read.value);
+  const auto state = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
+  if (!state) return {};
+  const auto fatigue = fatigue_results<2>(**solver, shape, **state);
+  const auto heat = heat_results<2>(**solver, shape, **state);
+  if (!fatigue || !heat) throw std::runtime_error("numbers without constants");
+  if (!*fatigue || !*heat) throw std::runtime_error((*fatigue ? heat->failure() : fatigue->failure()).detail);
+  const HeatResults& h = **heat;
+  return WearAndHeat{(*fatigue)->worst.utilization, h.peak.temperature, h.heat,
+                     h.through_rim + h.through_tread + h.through_holes + h.through_side_faces};
+}
+
+/// Every wheel that is solved has a utilization and a temperature that are finite, not less than nothing and
+/// than the air's, and the same when it is solved again; and it gives its heat away.
+void expect_wear_and_heat(int n, unsigned seed) {
+  constexpr FatigueMeasure measures[] = {FatigueMeasure::crossland, FatigueMeasure::dang_van,
+                                         FatigueMeasure::goodman, FatigueMeasure::principal_strain,
+                                         FatigueMeasure::strain_energy};
+  RandomWheels wheels(seed);
+  int n_solved = 0;
+  for (int k = 0; k < n; ++k) {
+    Case c = wheels.draw();
+    c.material.loss_factor = 0.1;
+    c.material.density = 1200;
+    c.material.conductivity = 0.2;
+    const FatigueMeasure measure = c.material.fatigue_measure = measures[k % std::size(measures)];
+    if (measure == FatigueMeasure::principal_strain)
+      c.material.fatigue_strain = 0.01;
+    else
+      c.material.fatigue_limit = 1e4;
+    if (measure == FatigueMeasure::crossland || measure == FatigueMeasure::dang_van)
+      c.material.fatigue_pressure_factor = 0.3;
+    if (measure == FatigueMeasure::goodman) c.material.ultimate_strength = 1e8;
+    c.load.speed = 0.1;
+    c.heat.convection = 10;
+    const auto found = wear_and_heat(c);
+    if (!found) continue;
+    ++n_solved;
+    SCOPED_TRACE(to_toml(c));
+    EXPECT_TRUE(std::isfinite(found->utilization) && found->utilization > 0);
+    EXPECT_TRUE(std::isfinite(found->temperature) && found->temperature >= 20);
+    EXPECT_NEAR(found->given_away, found->heat, 1e-6 * found->heat);
+    const auto again = wear_and_heat(c);
+    EXPECT_EQ(again->utilization, found->utilization);
+    EXPECT_EQ(again->temperature, found->temperature);
+  }
+  std::cout << n_solved << " of " << n << " solved\n";
+  EXPECT_GE(n_solved, 0.5 * n);
+}
+
+TEST(RandomWheels, HaveALifeAndATemperature) { expect_wear_and_heat(5, 2); }
+TEST(RandomWheels, HaveALifeAndATemperatureSlow) { expect_wear_and_heat(200, 1); }
 
 /// Whether a failure says what is wrong with the case: by its reason, or by a key.
 bool is_explained(const Failure& failure) {
