@@ -116,6 +116,25 @@ TEST(CaseMessages, WheelOfHundredsOfMetresGivesAWarning) {
   EXPECT_EQ(doubts(), 1) << "the width fits the radius";
 }
 
+// The middle of a slab that both faces cool is warmer than they are by h w / (4 k) of their rise.
+TEST(CaseWarnings, OfTemperaturesThatVaryOverTheWidth) {
+  Case c;
+  c.wheel.width = 0.05;
+  c.material.conductivity = 0.2;
+  c.heat.convection = 10;
+  const auto told = [&] {
+    for (const std::string& text : warnings(c))
+      if (text.find("in the middle of the width") != std::string::npos) return text;
+    return std::string();
+  };
+  EXPECT_NE(told().find("up to 62 % more"), std::string::npos) << told();
+  c.heat.side_convection = 0;
+  EXPECT_EQ(told(), "");
+  c.heat.side_convection = 10;
+  c.material.conductivity = 20;
+  EXPECT_EQ(told(), "");
+}
+
 TEST(CaseMessages, BothPlacesOfANestedHoleAreReported) {
   const std::string rings =
       "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n"

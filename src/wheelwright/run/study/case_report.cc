@@ -288,6 +288,25 @@ std::vector<std::string> warnings_of_losses(const Case& c) {
   return result;
 }
 
+/// Where the temperature of a plane wheel is not constant over the width: with a uniform source and no other
+/// way out than its side faces, the middle rises by h w / (4 k) of the rise of the faces more.
+std::vector<std::string> warnings_of_heat(const Case& c) {
+  constexpr double much = 0.1;
+  const auto cooled = cooling(c);
+  if (!cooled || !has_conductivity(c) || c.wheel.dimension == 3) return {};
+  const auto materials = placed_materials(c);
+  const double least = *std::ranges::min(materials, {},
+                                         [](const auto&placed) { return placed.conductivity().value_or(0); })
+                            .conductivity(),
+               more = cooled->side_faces * c.wheel.width / (4 * least);
+  if (!(more > much)) return {};
+  return {fmt::format(
+      "temperatures in 2D are constant over the width, and the side faces take heat from all of it: in the "
+      "middle of the width the temperature may rise by up to {:.2g} % more than shown; use wheel.dimension = "
+      "3, or heat.side_convection = 0 for a bound",
+      100 * more)};
+}
+
 /// Where load positions would miss the largest stress of a turn.
 std::vector<std::string> warnings_of_fatigue(const Case& c) {
   if (!has_fatigue_limit(c)) return {};
@@ -381,6 +400,7 @@ std::vector<std::string> warnings(const Case& c) {
   std::ranges::copy(unequal_rows(c), std::back_inserter(result));
   std::ranges::copy(warnings_of_losses(c), std::back_inserter(result));
   std::ranges::copy(warnings_of_fatigue(c), std::back_inserter(result));
+  std::ranges::copy(warnings_of_heat(c), std::back_inserter(result));
   if (const double cells = smallest_hole_in_cells(c);
       cells < least_cells_per_hole && c.optimizer.smoothing == 0)
     result.push_back(
