@@ -223,7 +223,7 @@ TEST(PeakTemperature, RisesWithTheLosses) {
 
 /// The quantity and the results give the same number, also on half of the width.
 TEST(PeakTemperature, OfHalfOfTheWidthIsThatOfTheWhole) {
-  const auto model = solid_model(4, Cooling{20, 35, 25, 15, 10});
+  const auto model = solid_model(4, Cooling{20, 15, 25, 15, 10});
   const auto whole = RollingProblem<3>::create(model);
   const auto half = HalfWidthSolver::create(model);
   ASSERT_TRUE(whole && half);
@@ -243,6 +243,22 @@ TEST(PeakTemperature, OfHalfOfTheWidthIsThatOfTheWhole) {
            directional_derivative<3>(e.edge_gradient("objective"), psi, everywhere, 1);
   };
   EXPECT_NEAR(derivative(*by_half) / derivative(*by_whole), 1, 1e-6);
+}
+
+/// Which no shape changes.
+TEST(PeakTemperature, IsThatOfTheRimWhereThatIsWarmest) {
+  const auto model = solid_model(2, Cooling{20, 35, 25, 15, 10});
+  const auto problem = RollingProblem<3>::create(model);
+  ASSERT_TRUE(problem);
+  const Circle hole{0.2581, 0.47 * model.grid.sector_angle(), 0.0273};
+  const auto psi = make_level_set<3>(Lattice<3>(model.grid, 1), std::span(&hole, 1));
+  const auto found = results<3>(*problem, psi, problem->all_positions());
+  EXPECT_EQ(found.peak.temperature, 35);
+  EXPECT_EQ(found.peak.place[0], model.grid.inner_radius);
+  const auto evaluated = testing::evaluate_objective<3>(
+      *problem, WeightedSum<3>{{1, std::make_shared<PeakTemperature<3>>()}}, psi);
+  ASSERT_TRUE(evaluated);
+  EXPECT_EQ(evaluated->functions[0].value, 35);
 }
 
 /// The wheel that begins at another column, and its mirror image, get as warm.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/single_load.h"
@@ -19,7 +20,10 @@ void heat_conflicts(const Case& c, Conflicts& found) {
       keys.push_back({std::string(heat_section().name), {of_heat.name}});
     return keys;
   };
-  if (!cooling(c))
+  const auto cooled = cooling(c);
+  const bool only_in_holes =
+      cooled && !cooled->rim_temperature && cooled->tread == 0 && cooled->side_faces == 0;
+  if (!cooled || (only_in_holes && !has_holes(c)))
     add(of_section(key_of(&Heat::convection)), "nothing takes the heat of the wheel",
         "set heat.convection or heat.rim_temperature");
   if (!has_loss_factor(c))

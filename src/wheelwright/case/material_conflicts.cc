@@ -124,6 +124,11 @@ void check_fatigue(const Case& c, const PlacedMaterial& placed, Conflicts& found
                        "without effect with this fatigue_measure",
                        is_none ? "set fatigue_measure, or omit it" : "omit it"});
   }
+  if (has_mean && given.fatigue_limit && given.ultimate_strength &&
+      *given.fatigue_limit >= *given.ultimate_strength)
+    found.push_back({{key(&Constants::fatigue_limit), key(&Constants::ultimate_strength)},
+                     "the amplitude that the material endures must be less than its ultimate_strength",
+                     "use a smaller fatigue_limit or more ultimate_strength"});
   if (is_none && given.fatigue_exponent)
     found.push_back({{key(&Constants::fatigue_exponent), measure},
                      "without effect without a fatigue_measure",

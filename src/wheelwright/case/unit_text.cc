@@ -38,7 +38,7 @@ const std::vector<UnitsOfKind>& known_units() {
       {{"N/rad"}},
       {{"m^2"}},
       {{"m^3"}, {"mm^3", 1, 1e9}},
-      {{"deg C"}},
+      {{"deg C"}, {"\u00b0C"}},
       {{"W/(m K)"}},
       {{"W/(m^2 K)"}},
       {{"turns below a cell"}},

@@ -64,8 +64,12 @@ SiPrefix si_prefix(double value) {
   return {1, ""};
 }
 
+SiPrefix si_prefix(double value, const std::string& unit) {
+  return unit.starts_with("deg") ? SiPrefix{1, ""} : si_prefix(value);
+}
+
 std::string value_text(double value, const std::string& unit) {
-  const SiPrefix prefix = si_prefix(value);
+  const SiPrefix prefix = si_prefix(value, unit);
   return fmt::format("{:.3g} {}{}", value / prefix.factor, prefix.symbol, unit);
 }
 
@@ -88,7 +92,7 @@ std::string level_colour(int level) { return viridis((level + 0.5) / ColourScale
 
 std::string colour_bar(const ColourScale& scale, const std::string& name, const std::string& unit, double x,
                        double y) {
-  const SiPrefix prefix = si_prefix(std::max(std::abs(scale.lower), std::abs(scale.upper)));
+  const SiPrefix prefix = si_prefix(std::max(std::abs(scale.lower), std::abs(scale.upper)), unit);
   const double step = bar_height / ColourScale::levels;
   std::string svg;
   for (int level = 0; level < ColourScale::levels; ++level)

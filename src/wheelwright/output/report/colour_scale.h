@@ -13,6 +13,8 @@ struct SiPrefix {
 
 /// The usual prefix for stresses and lengths: 0.8 MPa, 0.58 mm; none for 0.
 SiPrefix si_prefix(double value);
+/// None for degrees either.
+SiPrefix si_prefix(double value, const std::string& unit);
 
 /// Three digits and the unit with its prefix, e.g. "2.46 MPa".
 std::string value_text(double value, const std::string& unit);

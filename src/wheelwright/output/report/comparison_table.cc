@@ -18,11 +18,15 @@ using Value = std::optional<KnownNumber>;
 bool is_known(const Value& value) { return value && *value; }
 bool is_missing(const Value& value) { return value && !*value; }
 
+/// Whether the zero of its unit is arbitrary, so that changes are differences.
+bool is_in_degrees_celsius(const ComparedRow& row) { return row.key.find("_deg_C") != std::string::npos; }
+
 /// Empty if the first value is negligible compared with the other.
-std::string change(const Value& first_value, const Value& other) {
+std::string change(const ComparedRow& row, std::size_t wheel) {
   constexpr double max_percents = 1e5;
-  if (!is_known(first_value) || !is_known(other)) return "";
-  const double first = **first_value, value = **other;
+  if (!is_known(row.values[0]) || !is_known(row.values[wheel])) return "";
+  const double first = **row.values[0], value = **row.values[wheel];
+  if (is_in_degrees_celsius(row)) return fmt::format("{:+.2f} K", value - first);
   const double percents = 100 * (value / first - 1);
   if (!(std::abs(percents) < max_percents)) return "";
   if (std::abs(percents) < 0.005) return "0 %";
@@ -206,8 +210,7 @@ std::string comparison_table(const std::vector<std::string>& wheels, const std::
     for (std::size_t k = 0; k < row.values.size(); ++k) {
       const bool is_small = k > 0 && is_within_errors(row, k);
       has_small_change = has_small_change || is_small;
-      table += cells(k, value_text(row, k),
-                     change(row.values[0], row.values[k]) + (is_small ? within_errors : ""));
+      table += cells(k, value_text(row, k), change(row, k) + (is_small ? within_errors : ""));
     }
     table += '\n';
   }

@@ -325,6 +325,8 @@ std::string missing_lines(const RollingReport& report) {
   if (report.damage && !*report.damage)
     lines +=
         fmt::format("not computed: fatigue in all load cases: {}\n", to_string(report.damage->failure()));
+  if (report.heat && !*report.heat)
+    lines += fmt::format("not computed: temperature: {}\n", to_string(report.heat->failure()));
   for (size_t k = 0; k < report.loads.size(); ++k)
     if (!report.under_loads[k])
       lines += fmt::format("not computed: load {:.6g} N: {}\n", report.loads[k] * forces(report),

@@ -32,10 +32,13 @@ std::vector<Worst> worst_of_layers(const StateSolver<dim>& solver, const State<d
   return worst;
 }
 
-/// Whether the material lasts longer at `b`; if no life is known, whether it is further from the limit.
-bool lasts_less(const Worst& a, const Worst& b) {
-  if (a.life && b.life && *a.life != *b.life) return *a.life < *b.life;
-  return a.utilization > b.utilization;
+/// The place of the largest utilization, with the shortest life of all layers, if all are known.
+Worst worst_of_ring(const std::vector<Worst>& of_layers) {
+  Worst worst = *std::ranges::max_element(of_layers, {}, &Worst::utilization);
+  for (const Worst& of_layer : of_layers)
+    worst.life =
+        worst.life && of_layer.life ? std::optional(std::min(*worst.life, *of_layer.life)) : std::nullopt;
+  return worst;
 }
 
 }  // namespace
@@ -50,7 +53,7 @@ std::optional<Expected<FatigueResults>> fatigue_results(const StateSolver<dim>& 
     return fatigue_results(solver, psi, **all);
   }
   auto of_layers = worst_of_layers(solver, state);
-  FatigueResults results{*std::ranges::min_element(of_layers, lasts_less), {}};
+  FatigueResults results{worst_of_ring(of_layers), {}};
   if (of_layers.size() > 1) results.by_layer = std::move(of_layers);
   return results;
 }

@@ -14,7 +14,7 @@ struct FatigueResults {
     std::optional<double> life;  ///< in turns, if the exponent is known; infinite at utilization 0
     Vec<3> place;  ///< polar coordinates of the body (m, rad, m) in sector 0; the last one is 0 when dim = 2
   };
-  Worst worst;                  ///< of the whole ring
+  Worst worst;  ///< of the whole ring: the largest utilization and, of any layer, the shortest life
   std::vector<Worst> by_layer;  ///< from the rim to the tread; empty if there is one material
 };
 

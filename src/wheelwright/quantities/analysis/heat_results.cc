@@ -1,6 +1,7 @@
 #include "wheelwright/quantities/analysis/heat_results.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -31,7 +32,25 @@ std::vector<Peak> peaks_of_layers(const RollingModel<dim>& model, const CutDomai
             std::ranges::copy(model.grid.polar_point(place, q.xi), peak.place.begin());
           }
       });
+  // A rim of given temperature lies beside the points of the first layer.
+  if (const auto rim = model.cooling->rim_temperature; rim && *rim > peaks.front().temperature) {
+    peaks.front().temperature = *rim;
+    peaks.front().place = {model.grid.inner_radius, 0, 0};
+  }
   return peaks;
+}
+
+/// Whether what leaves is what is released, up to rounding.
+bool is_balanced(const HeatResults& results) {
+  constexpr double rounding = 1e-6;
+  const double flows[] = {results.through_rim, results.through_tread, results.through_holes,
+                          results.through_side_faces};
+  double sum = 0, size = results.heat;
+  for (const double flow : flows) {
+    sum += flow;
+    size = std::max(size, std::abs(flow));
+  }
+  return std::abs(sum - results.heat) <= rounding * size;
 }
 
 }  // namespace
@@ -62,6 +81,10 @@ std::optional<Expected<HeatResults>> heat_results(const StateSolver<dim>& solver
                       .through_tread = through(CooledSurface::tread),
                       .through_holes = through(CooledSurface::holes),
                       .through_side_faces = through(CooledSurface::side_faces)};
+  if (!is_balanced(results))
+    return Failure{FailureReason::inaccurate_solution,
+                   "more heat is released than the surfaces take: use more heat.convection, or set "
+                   "heat.rim_temperature"};
   if (peaks.size() > 1) results.by_layer = std::move(peaks);
   return results;
 }

@@ -59,6 +59,7 @@ class PeakTemperature<dim>::Excess {
     }
     return slopes;
   }
+  bool has_rim(const PolarGrid<dim>& grid) const { return !part_ || part_->has_row(grid, 0); }
   /// f^p at points of the moving boundary.
   std::vector<double> powers(const PolarGrid<dim>& grid, std::span<const SurfacePoint<dim>> points) const {
     std::vector<double> powers;
@@ -96,6 +97,12 @@ FunctionalValue<dim> PeakTemperature<dim>::evaluate(const StateSolver<dim>& solv
   double peak = 0;
   for (const auto& sample : samples) peak = std::max(peak, sample.f);
   const double integral = excess.integral(samples);
+  // The rim lies beside the points; where it is warmest, no shape changes the peak.
+  if (const auto rim = cooling.rim_temperature;
+      rim && !norm_.correction && excess.has_rim(model.grid) && *rim - cooling.coldest() >= peak) {
+    value.over_positions = *rim;
+    return value;
+  }
   const auto norm = norm_.value(peak, integral, 1);
   value.over_positions = cooling.coldest() + norm.peak();
   if (integral == 0) return value;

@@ -94,6 +94,11 @@ std::string contact_report(const Case& c) {
               fmt::format("{:.1f} of {:.4g} mm", cells_per_contact_patch(c), tread_cell_width(c) * 1e3));
 }
 
+/// E.g. "1.9 %", "94 %", "150 %".
+std::string rounded_percents(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
 bool depends_on_frequency(const Case& c) {
   return std::ranges::any_of(placed_materials(c), [](const PlacedMaterial& placed) {
     return placed.loss_factor() && !placed.loss_factor()->table().empty();
@@ -113,9 +118,9 @@ std::string losses_report(const Case& c) {
                                    turn, last, contact));
   }
   return line("rolling resistance",
-              fmt::format("load positions {:.3g} mm apart at the tread leave out about {:.2g} % of it",
+              fmt::format("load positions {:.3g} mm apart at the tread leave out about {} of it",
                           2 * std::numbers::pi * c.wheel.outer_radius / total_load_positions(c) * 1e3,
-                          100 * unresolved_losses(c))) +
+                          rounded_percents(unresolved_losses(c)))) +
          frequencies;
 }
 
@@ -274,10 +279,11 @@ std::vector<std::string> warnings_of_losses(const Case& c) {
   const Case worst = std::ranges::max(single_load_cases(c), {}, unresolved_losses);
   if (const double share = unresolved_losses(worst); share > much)
     result.push_back(fmt::format(
-        "with {} = {} about {:.2g} % of the rolling resistance is left out, near the contact, which is about "
+        "with {} = {} about {} of the rolling resistance is left out, near the contact, which is about "
         "{:.3g} mm long; with {} it is {:g} %, also by wheelwright analyze --positions {}",
-        key_of(&Load::positions).path(), c.load.positions, 100 * share, 2e3 * likely_half_width(worst),
-        positions_for_losses(worst, little), 100 * little, positions_for_losses(worst, little)));
+        key_of(&Load::positions).path(), c.load.positions, rounded_percents(share),
+        2e3 * likely_half_width(worst), positions_for_losses(worst, little), 100 * little,
+        positions_for_losses(worst, little)));
   for (const PlacedMaterial& placed : placed_materials(c))
     if (placed.loss_factor()->largest() > large_factor)
       result.push_back(fmt::format(
@@ -302,9 +308,9 @@ std::vector<std::string> warnings_of_heat(const Case& c) {
   if (!(more > much)) return {};
   return {fmt::format(
       "temperatures in 2D are constant over the width, and the side faces take heat from all of it: in the "
-      "middle of the width the temperature may rise by up to {:.2g} % more than shown; use wheel.dimension = "
+      "middle of the width the temperature may rise by up to {} more than shown; use wheel.dimension = "
       "3, or heat.side_convection = 0 for a bound",
-      100 * more)};
+      rounded_percents(more))};
 }
 
 /// Where load positions would miss the largest stress of a turn.
