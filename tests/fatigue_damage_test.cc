@@ -118,7 +118,7 @@ TEST(FatigueDamage, OfOneLoadCaseIsThatOfItsTurns) {
   }
 }
 
-/// The worst point is at least as bad as under the share of each load case alone, at most as bad as if the
+/// The worst point is at least as bad as under the share of any one load case, at most as bad as if the
 /// worst points of all load cases were one; its parts are those of the load cases there.
 TEST(FatigueDamage, LiesBetweenThoseOfSeparateAndOfCommonPlaces) {
   const LoadCases<2> cases = two_loads(0.7);
@@ -129,9 +129,9 @@ TEST(FatigueDamage, LiesBetweenThoseOfSeparateAndOfCommonPlaces) {
     const FatigueDamage::Worst& worst = found.by_layer[layer];
     double least = 0, most = 0, parts = 0;
     for (const int k : {0, 1}) {
-      const double alone = shares[k] / *results(wheel, k).by_layer[layer].life;
-      least = std::max(least, alone);
-      most += alone;
+      const double by_itself = shares[k] / *results(wheel, k).by_layer[layer].life;
+      least = std::max(least, by_itself);
+      most += by_itself;
       parts += worst.by_case[k];
     }
     EXPECT_GE(1 / *worst.life, (1 - 1e-12) * least);

@@ -128,7 +128,7 @@ struct LossFactorField {
   std::string_view default_text;
   static constexpr double factor = 1;
 };
-/// Of the frequencies of its table [Hz], and the shortest table.
+/// The range of the frequencies of such a table [Hz], and the number of points that it needs.
 inline constexpr Range loss_frequencies = between(1e-9, 1e9);
 inline constexpr std::size_t fewest_loss_factors = 2;
 

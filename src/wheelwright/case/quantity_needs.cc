@@ -35,7 +35,7 @@ bool has(const Case& c, Input input, const std::optional<PartOfRing>& part) {
   return true;
 }
 
-/// Of a constant of the materials, or of the cooling; nothing for other inputs.
+/// The need for a constant of the materials or of the cooling; nothing if the input is another one.
 std::optional<Need> need_of_materials(Input input) {
   switch (input) {
     case Input::density:

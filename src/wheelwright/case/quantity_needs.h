@@ -17,7 +17,7 @@ struct Need {
 /// Those that the case does not meet under this load.
 std::vector<Need> unmet_needs(const SingleLoad& single, const Quantity& quantity);
 
-/// Those of the materials' constants and of the cooling, which no load changes.
+/// The unmet needs that no load changes: constants of the materials and of the cooling.
 std::vector<Need> unmet_needs_of_materials(const Case& c, const Quantity& quantity);
 
 /// Why a quantity is the same for every wheel, so that it can neither be minimized nor be bounded.

@@ -27,8 +27,8 @@ RankedQuantity ranked(const Quantity& quantity);
 /// All built-in ones.
 const std::vector<RankedQuantity>& ranked_quantities();
 
-/// Those that the designs of a case have: without those that need constants of materials which the case does
-/// not give, and with those of its layers and of its program.
+/// The quantities that the designs of a case have. They contain those of its layers and of its program, and
+/// lack those that need constants of materials which the case does not give.
 std::vector<RankedQuantity> ranked_quantities(const Case& c);
 
 /// The constants of materials that a case does not give and the built-in one with that word needs.

@@ -197,11 +197,9 @@ template <int dim>
 std::optional<FrictionLimit> far_beyond_friction(const ReducedContact<dim>& contact,
                                                  const Interrupt& interrupt) {
   constexpr double far = 10;
-  const ReducedContact<dim> smooth = held_along_ground(contact.sliding_along({}));
-  const auto end =
-      newton(smooth, touching(smooth, undeformed_start(smooth)), Cycling::change_fewer, interrupt);
-  if (!end.converged) return {};
-  const FrictionLimit limit = smooth_limit(contact, smooth.state(end.x, end.iterations));
+  const auto smooth = solve_without_friction(contact, interrupt);
+  if (!smooth) return {};
+  const FrictionLimit limit = smooth_limit(contact, *smooth);
   return limit.needed > far * limit.available ? std::optional(limit) : std::nullopt;
 }
 
@@ -252,7 +250,17 @@ Expected<ContactState<dim>, ContactFailure> solve_contact(const ReducedContact<d
   return failure_of(contact, end, limit);
 }
 
+template <int dim>
+Expected<ContactState<dim>, ContactFailure> solve_without_friction(const ReducedContact<dim>& contact,
+                                                                   const Interrupt& interrupt) {
+  const ReducedContact<dim> smooth = held_along_ground(contact.sliding_along({}));
+  const ContactUnknowns<dim> start = undeformed_start(smooth);
+  return solve_contact<dim>(smooth, std::span(&start, 1), interrupt);
+}
+
 template decltype(solve_contact<2>) solve_contact<2>;
 template decltype(solve_contact<3>) solve_contact<3>;
+template decltype(solve_without_friction<2>) solve_without_friction<2>;
+template decltype(solve_without_friction<3>) solve_without_friction<3>;
 
 }  // namespace wheelwright

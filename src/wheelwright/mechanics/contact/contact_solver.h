@@ -28,4 +28,9 @@ Expected<ContactState<dim>, ContactFailure> solve_contact(const ReducedContact<d
                                                           std::span<const ContactUnknowns<dim>> starts,
                                                           const Interrupt& interrupt = {});
 
+/// The same contact without friction, the rim held along the ground, from the undeformed tread.
+template <int dim>
+Expected<ContactState<dim>, ContactFailure> solve_without_friction(const ReducedContact<dim>& contact,
+                                                                   const Interrupt& interrupt = {});
+
 }  // namespace wheelwright

@@ -154,9 +154,8 @@ class DeviatorBall {
   /// `measure(radius)`: a bound of the measure by a bound of the radius.
   template <class Bound>
   DeviatorBall(TensorHistory stresses, double least, const Bound& measure) {
-    constexpr double of_smooth_radius = 1.0 / 64;  // SmoothBall
     for (const SymmetricTensor& stress : stresses) points_.push_back(deviator_coordinates(stress));
-    const double most = std::pow(static_cast<double>(points_.size()), of_smooth_radius);
+    const double most = std::pow(static_cast<double>(points_.size()), 1.0 / SmoothBall::exponent);
     if (least <= 0 || measure(most * radius_about_mean(points_)) >= least) ball_.emplace(points_);
   }
 
@@ -226,20 +225,28 @@ class PrincipalHistory : public MeasuredHistory {
   double least_;
 };
 
+/// The radius of the ball as a shear stress, and alpha max p: Crossland's measure, and a bound of Dang Van's.
+double with_largest_pressure(double radius, double pressure_factor, TensorHistory stresses) {
+  return radius / std::sqrt(2.0) + pressure_factor * std::ranges::max(of_each(stresses, trace)) / 3;
+}
+
 class CrosslandHistory : public MeasuredHistory {
  public:
   CrosslandHistory(double pressure_factor, TensorHistory stresses, double least)
       : pressure_factor_(pressure_factor), stresses_(stresses), ball_(stresses, least, [&](double radius) {
-          return radius / std::sqrt(2.0) + pressure_factor * std::ranges::max(of_each(stresses, trace)) / 3;
+          return with_largest_pressure(radius, pressure_factor, stresses);
         }) {}
 
   double value() const override {
-    return ball_.matters() ? std::ranges::max(with_radius(ball_.smallest().radius())) : 0;
+    if (!ball_.matters()) return 0;
+    return with_largest_pressure(ball_.smallest().radius(), pressure_factor_, stresses_);
   }
 
   std::vector<double> samples() const override {
     if (!ball_.matters()) return std::vector<double>(stresses_.size(), 0.0);
-    return with_radius(ball_.smooth().radius());
+    const double amplitude = ball_.smooth().radius() / std::sqrt(2.0);
+    return of_each(stresses_,
+                   [&](const SymmetricTensor& t) { return amplitude + pressure_factor_ * trace(t) / 3; });
   }
 
   Slopes slopes(std::span<const double> factors) const override {
@@ -253,12 +260,6 @@ class CrosslandHistory : public MeasuredHistory {
   }
 
  private:
-  std::vector<double> with_radius(double radius) const {
-    const double amplitude = radius / std::sqrt(2.0);
-    return of_each(stresses_,
-                   [&](const SymmetricTensor& t) { return amplitude + pressure_factor_ * trace(t) / 3; });
-  }
-
   double pressure_factor_;
   TensorHistory stresses_;
   DeviatorBall ball_;
@@ -271,9 +272,8 @@ class DangVanHistory : public MeasuredHistory {
         stresses_(stresses),
         least_(least),
         // The shear stress about the center is at most the radius by sqrt(2).
-        ball_(stresses, least, [&](double radius) {
-          return radius / std::sqrt(2.0) + pressure_factor * std::ranges::max(of_each(stresses, trace)) / 3;
-        }) {}
+        ball_(stresses, least,
+              [&](double radius) { return with_largest_pressure(radius, pressure_factor, stresses); }) {}
 
   double value() const override {
     if (!ball_.matters()) return 0;
@@ -319,7 +319,7 @@ class DangVanHistory : public MeasuredHistory {
     return of_each(stresses_, [&](const SymmetricTensor& stress) { return difference(stress, tensor); });
   }
 
-  // Of s - s* + p I, the stress less the center.
+  // Both take the stress less the center of the ball, s - s* + p I.
   double of_pressure(const SymmetricTensor& about_center) const {
     return pressure_factor_ * trace(about_center) / 3;
   }

@@ -10,7 +10,7 @@ namespace wheelwright {
 namespace {
 
 constexpr int n_coordinates = 5;
-constexpr int half_exponent = 32;
+constexpr int half_exponent = SmoothBall::exponent / 2;
 
 using SmallMatrix = std::array<Vec<5>, 5>;  ///< of which the lower triangle counts
 
@@ -48,7 +48,7 @@ double total(const std::array<double, block_size>& lanes) {
   return sum;
 }
 
-/// Of the points of some blocks seen from a center; in `n` coordinates, the others are 0.
+/// Sums over points in blocks, seen from a center. They differ from it in the first n coordinates only.
 template <int n>
 SumOfPowers sum_of_powers(std::span<const Block> blocks, const Vec<5>& center, int n_points) {
   using Lanes = std::array<double, block_size>;

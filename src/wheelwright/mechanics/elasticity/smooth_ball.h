@@ -14,6 +14,7 @@ namespace wheelwright {
 class SmoothBall {
  public:
   using Point = SmallestBall::Point;
+  static constexpr int exponent = 64;
 
   /// `smallest`: that of the points.
   SmoothBall(std::span<const Point> points, const SmallestBall& smallest);

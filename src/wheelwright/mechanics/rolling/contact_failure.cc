@@ -72,14 +72,6 @@ Failure overload(const RollingModel<dim>& model, const std::string& what) {
                       what, fmt::join(keys, ", "))};
 }
 
-/// The same contact without friction, the rim held along the ground.
-template <int dim>
-Expected<ContactState<dim>, ContactFailure> without_friction(const ReducedContact<dim>& contact) {
-  const ReducedContact<dim> smooth = held_along_ground(contact.sliding_along({}));
-  const ContactUnknowns<dim> start = undeformed_start(smooth);
-  return solve_contact<dim>(smooth, std::span(&start, 1));
-}
-
 /// Whether gamma is so large that, with several points per cell, the contact is numerically overdetermined.
 template <int dim>
 std::optional<Failure> overdetermined(const RollingModel<dim>& model) {
@@ -137,7 +129,7 @@ std::optional<Failure> too_few_columns(const ReducedContact<dim>& contact, const
 template <int dim>
 Failure unexplained(const ContactFailure& failure, const RollingModel<dim>& model,
                     const ReducedContact<dim>& contact) {
-  const auto smooth = without_friction(contact);
+  const auto smooth = solve_without_friction(contact);
   if (smooth)
     if (const auto reason = reason_in(*smooth, model, contact)) return *reason;
   if (const auto reason = overdetermined(model)) return *reason;

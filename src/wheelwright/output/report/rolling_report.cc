@@ -484,7 +484,7 @@ double kilometres(const RollingReport& report, double turns) {
   return turns * 2 * std::numbers::pi * report.outer_radius / 1000;
 }
 
-/// Nothing of one load case alone.
+/// What each load case contributes; empty if the results are those of one load case.
 std::string text_by_case(const RollingReport&, const FatigueResults::Worst&) { return ""; }
 
 std::string text_by_case(const RollingReport& report, const FatigueDamage::Worst& worst) {
