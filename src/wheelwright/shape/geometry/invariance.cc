@@ -1,6 +1,6 @@
 #include "wheelwright/shape/geometry/invariance.h"
 
-#include <utility>
+#include <cmath>
 
 namespace wheelwright {
 namespace {
@@ -58,6 +58,15 @@ std::vector<double> invariant_part(const Lattice<dim>& lattice, std::span<const 
 }
 
 template <int dim>
+bool is_invariant(const LevelSet<dim>& psi, Invariance invariance) {
+  const auto mean = invariant_part<dim>(psi.lattice, psi.values, invariance);
+  const double rounding = 1e-9 * psi.lattice.grid().resolution();
+  for (std::size_t i = 0; i < mean.size(); ++i)
+    if (!(std::abs(psi.values[i] - mean[i]) <= rounding)) return false;
+  return true;
+}
+
+template <int dim>
 std::vector<double> invariant_load(const Lattice<dim>& lattice, std::span<const double> load,
                                    Invariance invariance) {
   std::vector<double> result(load.begin(), load.end());
@@ -70,6 +79,8 @@ std::vector<double> invariant_load(const Lattice<dim>& lattice, std::span<const 
 
 template std::vector<double> invariant_part(const Lattice<2>&, std::span<const double>, Invariance);
 template std::vector<double> invariant_part(const Lattice<3>&, std::span<const double>, Invariance);
+template bool is_invariant(const LevelSet<2>&, Invariance);
+template bool is_invariant(const LevelSet<3>&, Invariance);
 template std::vector<double> invariant_load(const Lattice<2>&, std::span<const double>, Invariance);
 template std::vector<double> invariant_load(const Lattice<3>&, std::span<const double>, Invariance);
 

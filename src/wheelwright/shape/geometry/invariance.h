@@ -23,6 +23,10 @@ LevelSet<dim> invariant_part(LevelSet<dim> psi, Invariance invariance) {
   return {psi.lattice, invariant_part<dim>(psi.lattice, psi.values, invariance)};
 }
 
+/// Whether a shape has it, up to 1e-9 of the resolution of the grid. False if a value is NaN.
+template <int dim>
+bool is_invariant(const LevelSet<dim>& psi, Invariance invariance);
+
 /// The load on the nodes that acts on invariant fields as the given one, and whose representative is
 /// invariant: every node takes its share of the sum over its line.
 template <int dim>
