@@ -122,9 +122,12 @@ class ExportCommand : public Subcommand {
   int run() override {
     const auto wheel = read_wheel_or_report(input_, {name(), {}});
     if (!wheel) return wheel.failure();
-    if (const auto* solid = std::get_if<WheelInput<3>>(&*wheel); solid && is_exported_as_plane(solid->shape))
-      return export_wheel(WheelInput<2>{solid->source, mid_plane_section(solid->shape), solid->name,
-                                        solid->which + ", the same all along the axle"});
+    if (const auto* solid = std::get_if<WheelInput<3>>(&*wheel);
+        solid && is_exported_as_plane(solid->shape)) {
+      fmt::print("{:<16} the same all along the axle, exported as a plane wheel\n", "shape");
+      return export_wheel(
+          WheelInput<2>{solid->source, mid_plane_section(solid->shape), solid->name, solid->which});
+    }
     return std::visit([this](const auto& input) { return export_wheel(input); }, *wheel);
   }
 
