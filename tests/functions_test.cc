@@ -69,16 +69,16 @@ class EnergyDensity : public MaterialDensityIntegral<2> {
 /// The square of the change of the dilatation from each load case to the next one of the turn: a function of
 /// the history of a point. Load case i n_sectors + s has the ground at position i, s sectors back; the
 /// positions of a sector follow each other with i.
-class StrainRate : public MaterialDensityIntegral<2, MaterialDensity<2>> {
+class StrainRate : public MaterialDensityIntegral<2, DensityOfHistory<2>> {
  public:
   std::string name() const override { return "strain_rate"; }
 
  private:
-  void densities(const StrainsAtPoint<2>& point, std::span<double> values) const override {
+  void densities_at(const StrainsAtPoint<2>& point, std::span<double> values) const override {
     for (int j = 0; j < point.n_cases(); ++j) values[j] = change(point, j) * change(point, j);
   }
-  void slopes(const StrainsAtPoint<2>& point, std::span<const double> factors,
-              const StressRows<2>& slopes) const override {
+  void slopes_at(const StrainsAtPoint<2>& point, std::span<const double> factors,
+                 const StressRows<2>& slopes) const override {
     for (const auto& row : slopes) std::ranges::fill(row, 0.0);
     for (int j = 0; j < point.n_cases(); ++j)
       for (int d = 0; d < 2; ++d) {

@@ -133,11 +133,11 @@ void expect_the_same_states(const RollingModel<3>& model, const State<3>& a, con
   const std::vector<Vec<3>> points{{0.2, 0.7, 0.3}, {0.9, 0.1, 0.6}};
   for (int cell = 0; cell < model.grid.n_cells(); ++cell)
     if (a.domain().kinds[cell] == CellKind::inside) {
-      EXPECT_LT(difference(numbers(a.displacement().strains(cell, points)),
-                           numbers(b.displacement().strains(cell, points))),
+      EXPECT_LT(difference(numbers(a.displacement().strains(cell, points).by_rows()),
+                           numbers(b.displacement().strains(cell, points).by_rows())),
                 100 * rounding);  // of the strains of this cell, which may be small
-      EXPECT_LT(difference(numbers(a.displacement().strains_and_rotations(cell, points)),
-                           numbers(b.displacement().strains_and_rotations(cell, points))),
+      EXPECT_LT(difference(numbers(a.displacement().strains_and_rotations(cell, points).by_rows()),
+                           numbers(b.displacement().strains_and_rotations(cell, points).by_rows())),
                 100 * rounding);
     }
   EXPECT_LT(difference(a.strain_peaks().von_mises, b.strain_peaks().von_mises), rounding);

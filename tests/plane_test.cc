@@ -98,7 +98,7 @@ TEST(PlaneStress, PeakOfVonMisesIsThatOfThreeDimensions) {
     const auto visit = [&](int cell, const std::vector<ReferencePoint<2>>& points) {
       std::vector<Vec<2>> xi;
       for (const auto& point : points) xi.push_back(point.xi);
-      const Matrix strains = displacement.strains(cell, xi);
+      const Matrix strains = displacement.strains(cell, xi).by_rows();
       for (int j = 0; j < strains.columns(); ++j)
         for (int row = 0; row < strains.rows(); row += 3) {
           const double* e = strains.column(j) + row;

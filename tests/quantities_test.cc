@@ -334,7 +334,7 @@ TEST(Quantities, TheTravelsDerivativeFollowsFromTheEnergys) {
     double density = 0;
     const auto& point = evaluation->boundary[q];
     const Displacement<2>& displacement = (*state)->displacement();
-    const Matrix strains = displacement.strains(point.cell, std::span(&point.xi, 1));
+    const Matrix strains = displacement.strains(point.cell, std::span(&point.xi, 1)).by_rows();
     for (int j = 0; j < strains.columns(); ++j) {
       const Voigt<2> e{strains(0, j), strains(1, j), strains(2, j)};
       const Voigt<2> sigma = stress<2>(model.materials.at_tread(), e);

@@ -109,20 +109,19 @@ TEST(LossDensity, HasTheSlopesOfItsDifferences) {
   const int n = model.n_positions * model.grid.n_sectors;
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
-  Matrix strains(n, 3), direction(n, 3), slopes(n, 3);
+  Matrix strains(n, 3), direction(n, 3);
   for (Matrix* each : {&strains, &direction})
     for (double& entry : each->entries()) entry = normal(random);
-  std::vector<double> factors(n), values(n);
+  std::vector<double> factors(n);
   for (double& factor : factors) factor = normal(random);
   const MaterialLaw<2>& law = *model.materials.layers().front().law;
   const auto at = [&](double h) {
     Matrix moved = strains;
     for (std::size_t k = 0; k < moved.entries().size(); ++k) moved.data()[k] += h * direction.data()[k];
-    density.densities({strain_columns<2>(moved, 0), model.grid.n_sectors, law}, values);
-    return std::inner_product(values.begin(), values.end(), factors.begin(), 0.0);
+    const Matrix values = density.densities({moved, model.grid.n_sectors, law, {}, {Vec<2>{}}});
+    return std::inner_product(factors.begin(), factors.end(), values.entries().begin(), 0.0);
   };
-  density.slopes({strain_columns<2>(strains, 0), model.grid.n_sectors, law}, factors,
-                 stress_columns<2>(slopes, 0));
+  const Matrix slopes = density.slopes({strains, model.grid.n_sectors, law, {}, {Vec<2>{}}}, factors);
   const double slope =
       std::inner_product(slopes.entries().begin(), slopes.entries().end(), direction.entries().begin(), 0.0);
   // The density is quadratic: its central difference is exact.

@@ -37,9 +37,9 @@ std::vector<double> heat_loads(const StateSolver<dim>& solver, const State<dim>&
     const auto of_cell = [&](int k) {
       const StrainedCell<dim> cell = cells[k];
       const std::vector<double> forces = of_turn.densities(cell);
-      CellLoads of_nodes{cell.cell, std::vector<double>(nodes_per_cell<dim>(model.degree), 0.0)};
+      CellLoads of_nodes{cell.cell_index, std::vector<double>(nodes_per_cell<dim>(model.degree), 0.0)};
       for (int q = 0; q < cell.n_points(); ++q) {
-        const ShapeFunctions<dim> shape(model.degree, cell.points[q]);
+        const ShapeFunctions<dim> shape(model.degree, cell.points()[q]);
         for (std::size_t a = 0; a < of_nodes.loads.size(); ++a)
           of_nodes.loads[a] += heat_by_force(model) * forces[q] * cell.weights[q] * shape.value[a];
       }
@@ -62,25 +62,23 @@ WeightedHeat<dim>::WeightedHeat(const RollingModel<dim>& model, int layer,
       weight_(std::move(weight)) {}
 
 template <int dim>
-void WeightedHeat<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
-  losses_.densities(point, values);
-  const double weight = weight_at(point);
-  for (double& value : values) value *= weight;
+Matrix WeightedHeat<dim>::densities(const StrainsInCell<dim>& cell) const {
+  return weighted(cell, losses_.densities(cell));
 }
 
 template <int dim>
-void WeightedHeat<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-                               const StressRows<dim>& slopes) const {
-  double weight = weight_at(point);
-  const double first = factors.front();
-  if (std::ranges::all_of(factors, [&](double factor) { return factor == first; })) {
-    losses_.slopes_of_sum(point, slopes);
-    weight *= first;
-  } else {
-    losses_.slopes(point, factors, slopes);
+Matrix WeightedHeat<dim>::slopes(const StrainsInCell<dim>& cell, std::span<const double> factors) const {
+  return weighted(cell, losses_.slopes(cell, factors));
+}
+
+template <int dim>
+Matrix WeightedHeat<dim>::weighted(const StrainsInCell<dim>& cell, Matrix values) const {
+  const int columns_per_point = values.columns() / cell.n_points();
+  for (int j = 0; j < values.columns(); ++j) {
+    const double weight = heat_by_force_ * weight_->at(cell.cell(), cell.points()[j / columns_per_point]);
+    for (int i = 0; i < values.rows(); ++i) values(i, j) *= weight;
   }
-  for (const auto& component : slopes)
-    for (double& slope : component) slope *= weight;
+  return values;
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                  \

@@ -29,15 +29,13 @@ class WeightedHeat : public MaterialDensity<dim> {
   WeightedHeat(const RollingModel<dim>& model, int layer,
                std::shared_ptr<const TemperatureField<dim>> weight);
 
-  void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
-  void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-              const StressRows<dim>& slopes) const override;
+  Matrix densities(const StrainsInCell<dim>& cell) const override;
+  Matrix slopes(const StrainsInCell<dim>& cell, std::span<const double> factors) const override;
   bool covers(const PolarGrid<dim>& grid, int row) const override { return losses_.covers(grid, row); }
 
  private:
-  double weight_at(const StrainsAtPoint<dim>& point) const {
-    return heat_by_force_ * weight_->at(point.cell, point.xi);
-  }
+  /// Multiplies values at the points of a cell, equally many columns of each.
+  Matrix weighted(const StrainsInCell<dim>& cell, Matrix values) const;
 
   LossDensity<dim> losses_;
   double heat_by_force_;  ///< q by the density of the force

@@ -19,12 +19,12 @@ class WholeDisplacement : public Displacement<3> {
     return halves_.at_nodes(half_.displacement().at_nodes(position), half_.model().degree);
   }
 
-  Matrix strains(int cell, std::span<const Vec<3>> points) const override {
+  FactoredField strains(int cell, std::span<const Vec<3>> points) const override {
     constexpr int shears_along_axle[] = {3, 4};
     return of_half(&Displacement<3>::strains, cell, points, n_strains<3>, shears_along_axle);
   }
 
-  Matrix strains_and_rotations(int cell, std::span<const Vec<3>> points) const override {
+  FactoredField strains_and_rotations(int cell, std::span<const Vec<3>> points) const override {
     constexpr int shears_along_axle_and_rotations_in_plane[] = {3, 4, 6, 7};
     return of_half(&Displacement<3>::strains_and_rotations, cell, points, n_strains<3> + n_rotations<3>,
                    shears_along_axle_and_rotations_in_plane);
@@ -33,18 +33,19 @@ class WholeDisplacement : public Displacement<3> {
  private:
   /// A field at points of a cell, of so many components per point. Those named change sign in the mirror
   /// image.
-  Matrix of_half(Matrix (Displacement<3>::*field)(int, std::span<const Vec<3>>) const, int cell,
-                 std::span<const Vec<3>> points, int n_components, std::span<const int> odd) const {
+  FactoredField of_half(FactoredField (Displacement<3>::*field)(int, std::span<const Vec<3>>) const, int cell,
+                        std::span<const Vec<3>> points, int n_components, std::span<const int> odd) const {
     const auto place = halves_.place(cell);
     const Displacement<3>& there = half_.displacement();
     if (!place.is_image) return (there.*field)(place.cell, points);
     std::vector<Vec<3>> images(points.begin(), points.end());
     for (Vec<3>& xi : images) xi[2] = 1 - xi[2];
-    Matrix values = (there.*field)(place.cell, images);
-    for (int j = 0; j < values.columns(); ++j)
-      for (int first = 0; first < values.rows(); first += n_components)
-        for (const int component : odd) values(first + component, j) *= -1;
-    return values;
+    FactoredField result = (there.*field)(place.cell, images);
+    Matrix& map = result.map;
+    for (int j = 0; j < map.columns(); ++j)
+      for (int first = 0; first < map.rows(); first += n_components)
+        for (const int component : odd) map(first + component, j) *= -1;
+    return result;
   }
 
   const State<3>& half_;

@@ -15,23 +15,29 @@ Matrix strain_maps(const ElasticElement<dim>& element,
   return strains;
 }
 
-template <int dim>
-double integrand(const LoadPositions& positions, const StrainsAtPoint<dim>& point,
-                 std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
-  std::vector<double> values(point.n_cases());
-  double sum = 0;
-  for (const auto& [density, factors] : integrals) {
-    density->densities(point, values);
-    for (int j = 0; j < point.n_cases(); ++j)
-      sum += positions.multiplicities[j / point.n_sectors] * factors[j / point.n_sectors] * values[j];
-  }
-  return sum;
+FactoredField strains_of_cases(const Matrix& modes, const Matrix& weights, const Matrix& maps) {
+  return {transposed(maps), product(modes, Op::transpose, weights, Op::transpose)};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                          \
-  template decltype(strain_maps<dim>) strain_maps<dim>;                       \
-  template double integrand(const LoadPositions&, const StrainsAtPoint<dim>&, \
-                            std::span<const FunctionalDerivative<dim>::Integral>);
+template <int dim>
+std::vector<double> integrands(const LoadPositions& positions, const StrainsInCell<dim>& cell,
+                               std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
+  std::vector<double> sums(cell.n_points(), 0.0);
+  for (const auto& [density, factors] : integrals) {
+    const Matrix values = density->densities(cell);
+    for (int q = 0; q < cell.n_points(); ++q)
+      for (int j = 0; j < cell.n_cases(); ++j) {
+        const int position = j / cell.n_sectors();
+        sums[q] += positions.multiplicities[position] * factors[position] * values(j, q);
+      }
+  }
+  return sums;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                       \
+  template decltype(strain_maps<dim>) strain_maps<dim>;                                    \
+  template std::vector<double> integrands(const LoadPositions&, const StrainsInCell<dim>&, \
+                                          std::span<const FunctionalDerivative<dim>::Integral>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -13,38 +13,20 @@ namespace {
 
 /// The loads on one cell's dofs, one row per load case; empty if there are none.
 template <int dim>
-Matrix cell_loads(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
-                  const std::array<int, dim>& place, const Matrix& strains,
-                  std::span<const ReferencePoint<dim>> points, int n_sectors,
+Matrix cell_loads(const StrainsInCell<dim>& strains, std::span<const double> weights,
                   std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
-  const int n_cases = strains.columns(), n_points = static_cast<int>(points.size());
-  const Matrix of_cases = by_load_case(strains);
-  Matrix stresses(n_cases, n_strains<dim> * n_points), slopes(n_cases, n_strains<dim>);
-  bool is_zero = true;
+  Matrix stresses(strains.n_cases(), strains.strains().columns());
   for (const auto& [density, factors] : integrals) {
-    std::vector<double> of_case(n_cases);
-    for (int load_case = 0; load_case < n_cases; ++load_case)
-      of_case[load_case] = factors[load_case / n_sectors];
-    for (int q = 0; q < n_points; ++q) {
-      density->slopes(
-          {strain_columns<dim>(of_cases, n_strains<dim> * q), n_sectors, law, place, points[q].xi}, of_case,
-          stress_columns<dim>(slopes, 0));
-      double* sum = stresses.column(n_strains<dim> * q);
-      for (size_t i = 0; i < slopes.entries().size(); ++i) {
-        sum[i] += slopes.data()[i];
-        is_zero = is_zero && slopes.data()[i] == 0;
-      }
-    }
+    std::vector<double> of_case(strains.n_cases());
+    for (int load_case = 0; load_case < strains.n_cases(); ++load_case)
+      of_case[load_case] = factors[load_case / strains.n_sectors()];
+    const Matrix slopes = density->slopes(strains, of_case);
+    for (size_t i = 0; i < slopes.entries().size(); ++i) stresses.data()[i] += slopes.data()[i];
   }
-  if (is_zero) return {};
-  Matrix maps(n_strains<dim> * n_points, element.n_dofs());
-  for (int q = 0; q < n_points; ++q) {
-    const auto at = element.at(points[q].xi);
-    const double weight = -points[q].weight * at.determinant;
-    for (int dof = 0; dof < element.n_dofs(); ++dof)
-      for (int k = 0; k < n_strains<dim>; ++k) maps(n_strains<dim> * q + k, dof) = weight * at.strain[k][dof];
-  }
-  return product(stresses, Op::none, maps, Op::none);
+  if (std::ranges::all_of(stresses.entries(), [](double entry) { return entry == 0; })) return {};
+  for (int j = 0; j < stresses.columns(); ++j)
+    for (int i = 0; i < stresses.rows(); ++i) stresses(i, j) *= -weights[j / n_strains<dim>];
+  return product(stresses, Op::none, strains.map(), Op::none);
 }
 
 /// Adds a cell's loads to those of the core.
@@ -91,10 +73,10 @@ MaterialLoads material_loads(const RollingProblem<dim>& problem, const RollingSo
     const auto place = grid.cell_position(cell);
     const auto covering = integrals_in_row<dim>(integrals, grid, place[0]);
     if (covering.empty()) return Matrix();
-    std::vector<Vec<dim>> xi;
-    for (const auto& point : points) xi.push_back(point.xi);
-    return cell_loads<dim>(problem.elements().element(place[0]), problem.elements().law(place[0]), place,
-                           displacement.strains(cell, xi), points, grid.n_sectors, covering);
+    auto [xi, weights] = weighted_points(grid, problem.model().degree, cell, points);
+    FactoredField strains = displacement.strains(cell, xi);
+    return cell_loads<dim>({std::move(strains), grid.n_sectors, problem.elements().law(place[0]), place, xi},
+                           weights, covering);
   };
   compute_in_parallel(static_cast<int>(cells.size()), of_cell, [&](int k, const Matrix& of_dofs) {
     if (of_dofs.entries().empty()) return;

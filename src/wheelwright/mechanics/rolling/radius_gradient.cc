@@ -158,16 +158,13 @@ class FormsByRadius {
           for (const auto& q : rule) points.push_back(element.at(q.xi));
           Matrix u(displacement_.modes.rows(), element.n_dofs());
           gather(s_.ring, s_.ring.sector().space.cell_nodes(cell), displacement_.modes, u);
-          const Matrix of_cases =
-              product(displacement_.weights, Op::none,
-                      product(u, Op::none, strain_maps<dim>(element, points), Op::none), Op::none);
+          const auto values = integrands<dim>(
+              s_.positions,
+              {strains_of_cases(u, displacement_.weights, strain_maps<dim>(element, points)),
+               s_.ring.n_sectors(), core.elements().law(row), grid.cell_position(cell), places_of<dim>(rule)},
+              covering);
           for (size_t q = 0; q < points.size(); ++q)
-            sum += rule[q].weight * points[q].determinant *
-                   integrand<dim>(
-                       s_.positions,
-                       {strain_columns<dim>(of_cases, n_strains<dim> * static_cast<int>(q)),
-                        s_.ring.n_sectors(), core.elements().law(row), grid.cell_position(cell), rule[q].xi},
-                       covering);
+            sum += rule[q].weight * points[q].determinant * values[q];
         });
     return sum;
   }

@@ -165,19 +165,18 @@ void add_rotations(const ElasticElement<dim>& element, std::span<const Vec<dim>>
 }  // namespace
 
 template <int dim>
-Matrix RingDisplacement<dim>::strains(int cell, std::span<const Vec<dim>> points) const {
+FactoredField RingDisplacement<dim>::strains(int cell, std::span<const Vec<dim>> points) const {
   const auto& element = problem_.elements().element(lattice_.grid().cell_position(cell)[0]);
-  return product(strain_map<dim>(element, points, n_strains<dim>), Op::none, cell_displacements(cell),
-                 Op::none);
+  return {strain_map<dim>(element, points, n_strains<dim>), cell_displacements(cell)};
 }
 
 template <int dim>
-Matrix RingDisplacement<dim>::strains_and_rotations(int cell, std::span<const Vec<dim>> points) const {
+FactoredField RingDisplacement<dim>::strains_and_rotations(int cell, std::span<const Vec<dim>> points) const {
   const auto& element = problem_.elements().element(lattice_.grid().cell_position(cell)[0]);
   constexpr int n_rows = n_strains<dim> + n_rotations<dim>;
   Matrix map = strain_map<dim>(element, points, n_rows);
   add_rotations<dim>(element, points, n_rows, n_strains<dim>, map);
-  return product(map, Op::none, cell_displacements(cell), Op::none);
+  return {std::move(map), cell_displacements(cell)};
 }
 
 template class RingDisplacement<2>;

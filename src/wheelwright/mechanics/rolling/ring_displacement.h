@@ -14,8 +14,8 @@ class RingDisplacement : public Displacement<dim> {
   RingDisplacement(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution);
 
   RingField at_nodes(int position) const override;
-  Matrix strains(int cell, std::span<const Vec<dim>> points) const override;
-  Matrix strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override;
+  FactoredField strains(int cell, std::span<const Vec<dim>> points) const override;
+  FactoredField strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override;
 
  private:
   /// Displacements of a cell's dofs: one row per dof, one column per (position, sector).

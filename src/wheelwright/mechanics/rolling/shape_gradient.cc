@@ -109,7 +109,7 @@ class Densities {
         densities[f][q] += loads_[f].density(points[q], law, angle, p);
       if (projected) add_projection(energies_[f], element, law, u, p, dilatations, densities[f]);
       const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
-      if (!integrals.empty()) add_integrands(integrals, law, place, boundary.rule, strain_u, densities[f]);
+      if (!integrals.empty()) add_integrands(integrals, law, place, boundary.rule, u, strains, densities[f]);
     }
     return densities;
   }
@@ -180,14 +180,12 @@ class Densities {
 
   void add_integrands(std::span<const typename FunctionalDerivative<dim>::Integral> integrals,
                       const MaterialLaw<dim>& law, const std::array<int, dim>& place,
-                      std::span<const ReferenceSurfacePoint<dim>> rule, const Matrix& strain_u,
-                      std::vector<double>& densities) const {
-    const Matrix of_cases = product(s_.displacement.weights, Op::none, strain_u, Op::none);
-    for (int q = 0; q < static_cast<int>(densities.size()); ++q)
-      densities[q] += integrand<dim>(
-          s_.positions,
-          {strain_columns<dim>(of_cases, n_strains<dim> * q), s_.ring.n_sectors(), law, place, rule[q].xi},
-          integrals);
+                      std::span<const ReferenceSurfacePoint<dim>> rule, const Matrix& u,
+                      const Matrix& strains, std::vector<double>& densities) const {
+    const StrainsInCell<dim> cell(strains_of_cases(u, s_.displacement.weights, strains), s_.ring.n_sectors(),
+                                  law, place, places_of<dim>(rule));
+    const auto values = integrands<dim>(s_.positions, cell, integrals);
+    for (size_t q = 0; q < densities.size(); ++q) densities[q] += values[q];
   }
 
   const RollingProblem<dim>& problem_;

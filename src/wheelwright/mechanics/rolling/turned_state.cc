@@ -46,25 +46,25 @@ class TurnedDisplacement : public Displacement<dim> {
     return here;
   }
 
-  Matrix strains(int cell, std::span<const Vec<dim>> points) const override {
+  FactoredField strains(int cell, std::span<const Vec<dim>> points) const override {
     return of_turned(&Displacement<dim>::strains, cell, points);
   }
 
-  Matrix strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override {
+  FactoredField strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override {
     return of_turned(&Displacement<dim>::strains_and_rotations, cell, points);
   }
 
  private:
   /// A field at points of a cell, in its frame.
-  Matrix of_turned(Matrix (Displacement<dim>::*field)(int, std::span<const Vec<dim>>) const, int cell,
-                   std::span<const Vec<dim>> points) const {
+  FactoredField of_turned(FactoredField (Displacement<dim>::*field)(int, std::span<const Vec<dim>>) const,
+                          int cell, std::span<const Vec<dim>> points) const {
     const PolarGrid<dim>& grid = lattice_.grid();
     auto place = grid.cell_position(cell);
     place[1] -= columns_;
     const int sectors_back = place[1] < 0 ? 1 : 0;
     place[1] += sectors_back * grid.columns();
-    const Matrix there = (turned_.displacement().*field)(grid.cell_index(place), points);
-    return turned_columns(there, grid.n_sectors, sectors_back);
+    FactoredField there = (turned_.displacement().*field)(grid.cell_index(place), points);
+    return {std::move(there.map), turned_columns(there.factors, grid.n_sectors, sectors_back)};
   }
 
   const State<dim>& turned_;

@@ -160,14 +160,14 @@ void PointUtilization<dim>::set_slopes(std::span<const double> factors, const St
 }
 
 template <int dim>
-void UtilizationPower<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
+void UtilizationPower<dim>::densities_at(const StrainsAtPoint<dim>& point, std::span<double> values) const {
   std::ranges::transform(PointUtilization<dim>(point, least_).samples(), values.begin(),
                          [&](double sample) { return integer_power(sample, exponent_); });
 }
 
 template <int dim>
-void UtilizationPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-                                   const StressRows<dim>& slopes) const {
+void UtilizationPower<dim>::slopes_at(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                                      const StressRows<dim>& slopes) const {
   const PointUtilization<dim> utilization(point, least_);
   std::vector<double> shares = utilization.samples();
   if (std::ranges::max(shares) < least_) {

@@ -43,7 +43,7 @@ class PointUtilization {
 /// A power of the samples of the utilization, one per load case. Samples far below a peak count as 0: their
 /// powers are negligible.
 template <int dim>
-class UtilizationPower : public MaterialDensity<dim> {
+class UtilizationPower : public DensityOfHistory<dim> {
  public:
   UtilizationPower(Materials<dim> materials, int exponent, double peak = 0)
       : materials_(std::move(materials)), exponent_(exponent), least_(least_that_counts(peak, exponent)) {}
@@ -53,9 +53,9 @@ class UtilizationPower : public MaterialDensity<dim> {
     return peak * std::pow(1e-12, 1.0 / exponent);
   }
 
-  void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
-  void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-              const StressRows<dim>& slopes) const override;
+  void densities_at(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
+  void slopes_at(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                 const StressRows<dim>& slopes) const override;
   /// The rows of materials of known strength.
   bool covers(const PolarGrid<dim>& grid, int row) const override;
 

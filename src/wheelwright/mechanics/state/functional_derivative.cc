@@ -75,19 +75,37 @@ void add(const FunctionalDerivative<dim>& term, const std::vector<double>& facto
 }
 
 template <int dim>
-void DensityOfStrain<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
+Matrix DensityOfHistory<dim>::densities(const StrainsInCell<dim>& cell) const {
+  auto values = Matrix::unfilled(cell.n_cases(), cell.n_points());
+  for (int q = 0; q < cell.n_points(); ++q)
+    densities_at(cell.at(q), std::span(values.column(q), static_cast<std::size_t>(values.rows())));
+  return values;
+}
+
+template <int dim>
+Matrix DensityOfHistory<dim>::slopes(const StrainsInCell<dim>& cell, std::span<const double> factors) const {
+  auto values = Matrix::unfilled(cell.n_cases(), n_strains<dim> * cell.n_points());
+  for (int q = 0; q < cell.n_points(); ++q)
+    slopes_at(cell.at(q), factors, stress_columns<dim>(values, n_strains<dim> * q));
+  return values;
+}
+
+template <int dim>
+void DensityOfStrain<dim>::densities_at(const StrainsAtPoint<dim>& point, std::span<double> values) const {
   for (int j = 0; j < point.n_cases(); ++j) values[j] = at(strain_of(point, j), point.law).density;
 }
 
 template <int dim>
-void DensityOfStrain<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-                                  const StressRows<dim>& slopes) const {
+void DensityOfStrain<dim>::slopes_at(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                                     const StressRows<dim>& slopes) const {
   for (int j = 0; j < point.n_cases(); ++j) {
     const Voigt<dim> by_strain = at(strain_of(point, j), point.law).by_strain;
     for (int k = 0; k < n_strains<dim>; ++k) slopes[k][j] = factors[j] * by_strain[k];
   }
 }
 
+template class DensityOfHistory<2>;
+template class DensityOfHistory<3>;
 template class DensityOfStrain<2>;
 template class DensityOfStrain<3>;
 template decltype(add<2>) add<2>;

@@ -1,29 +1,15 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "wheelwright/mechanics/elasticity/element.h"
 #include "wheelwright/mechanics/state/rim.h"
+#include "wheelwright/mechanics/state/strains_in_cell.h"
 #include "wheelwright/shape/geometry/polar_grid.h"
 
 namespace wheelwright {
-
-/// The strains of one point of a sector in all load cases. Load case i n_sectors + s is position i with the
-/// ground turned to it, seen at the point's image in sector s; or the same point with the ground s sectors
-/// back. If all positions were solved, the load cases are those of a whole turn of the wheel.
-template <int dim>
-struct StrainsAtPoint {
-  StrainRows<dim> strains;  ///< [component][load case], in the axes that the law wants
-  int n_sectors;
-  const MaterialLaw<dim>& law;
-  std::array<int, dim> cell;  ///< the position of the point's cell on the grid of the sector
-  Vec<dim> xi;                ///< the point in the unit cell
-
-  int n_cases() const { return static_cast<int>(strains[0].size()); }
-};
 
 /// A function of the strains that is integrated over the material, including the tread: M(u) of (36). It may
 /// be zero in whole rows of cells.
@@ -32,23 +18,36 @@ class MaterialDensity {
  public:
   virtual ~MaterialDensity() = default;
 
-  /// M of every load case [of the function per m^2, or per m^3 when dim = 3]. It may depend on the strains of
-  /// all load cases, such as their range over a turn; then all positions must be solved
-  /// (Functional::is_mirror_symmetric).
-  virtual void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const = 0;
+  /// M at the points of a cell in every load case [of the function per m^2, or per m^3 when dim = 3]: one row
+  /// per load case, one column per point. It may depend on the strains of all load cases, such as their range
+  /// over a turn; then all positions must be solved (Functional::is_mirror_symmetric).
+  virtual Matrix densities(const StrainsInCell<dim>& cell) const = 0;
 
-  /// The derivative of sum_j factor_j M_j, j the load cases, with respect to all strains (engineering shear
-  /// strains).
-  virtual void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-                      const StressRows<dim>& slopes) const = 0;
+  /// The derivative of sum_j factor_j M_j, j the load cases, at every point with respect to all strains
+  /// (engineering shear strains) at that point: one row per load case, n_strains columns per point.
+  virtual Matrix slopes(const StrainsInCell<dim>& cell, std::span<const double> factors) const = 0;
 
   /// Whether it counts in a radial row of cells, the first of them at the rim.
   virtual bool covers(const PolarGrid<dim>&, int) const { return true; }
 };
 
-/// A density that is the same function of the strain in every load case.
+/// A density that is the same function of the strains at every point.
 template <int dim>
-class DensityOfStrain : public MaterialDensity<dim> {
+class DensityOfHistory : public MaterialDensity<dim> {
+ public:
+  Matrix densities(const StrainsInCell<dim>& cell) const final;
+  Matrix slopes(const StrainsInCell<dim>& cell, std::span<const double> factors) const final;
+
+  /// M of every load case, from the strains of all of them.
+  virtual void densities_at(const StrainsAtPoint<dim>& point, std::span<double> values) const = 0;
+  /// The derivative of sum_j factor_j M_j.
+  virtual void slopes_at(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                         const StressRows<dim>& slopes) const = 0;
+};
+
+/// A density that is the same function of the strain at every point and in every load case.
+template <int dim>
+class DensityOfStrain : public DensityOfHistory<dim> {
  public:
   struct Value {
     double density;        ///< M
@@ -56,9 +55,9 @@ class DensityOfStrain : public MaterialDensity<dim> {
   };
   virtual Value at(const Voigt<dim>& strain, const MaterialLaw<dim>& law) const = 0;
 
-  void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
-  void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-              const StressRows<dim>& slopes) const override;
+  void densities_at(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
+  void slopes_at(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                 const StressRows<dim>& slopes) const override;
 };
 
 /// The derivative of the values J_i of one function with respect to the states u_i of the solved load

@@ -4,13 +4,6 @@
 
 namespace wheelwright {
 
-Matrix by_load_case(const Matrix& strains) {
-  Matrix result(strains.columns(), strains.rows());
-  for (int i = 0; i < strains.rows(); ++i)
-    for (int j = 0; j < strains.columns(); ++j) result(j, i) = strains(i, j);
-  return result;
-}
-
 template <int dim>
 StrainedCells<dim>::StrainedCells(const StateSolver<dim>& solver, const State<dim>& state,
                                   const MaterialDensity<dim>& covered)
@@ -28,14 +21,11 @@ StrainedCell<dim> StrainedCells<dim>::operator[](int k) const {
   const auto& [cell, points] = cells_[k];
   const auto place = model_.grid.cell_position(cell);
   auto quadrature = weighted_points(model_.grid, model_.degree, cell, points);
-  Matrix strains = by_load_case(displacement_.strains(cell, quadrature.points));
-  return {cell,
-          place,
-          std::move(quadrature.points),
-          std::move(quadrature.weights),
-          std::move(strains),
-          model_.grid.n_sectors,
-          model_.materials.in_row(model_.grid, place[0])};
+  FactoredField strains = displacement_.strains(cell, quadrature.points);
+  return {{std::move(strains), model_.grid.n_sectors, model_.materials.in_row(model_.grid, place[0]), place,
+           std::move(quadrature.points)},
+          cell,
+          std::move(quadrature.weights)};
 }
 
 template <int dim>
@@ -53,11 +43,10 @@ std::vector<double> material_integral(const StateSolver<dim>& solver, const Stat
   std::vector<double> integrals(state.positions().size(), 0.0);
   const auto of_cell = [&](int k) {
     const StrainedCell<dim> cell = cells[k];
-    std::vector<double> sums(integrals.size(), 0.0), values(cell.strains.rows());
-    for (int q = 0; q < cell.n_points(); ++q) {
-      density.densities(cell.at(q), values);
-      for (size_t j = 0; j < values.size(); ++j) sums[j / cell.n_sectors] += cell.weights[q] * values[j];
-    }
+    const Matrix values = density.densities(cell);
+    std::vector<double> sums(integrals.size(), 0.0);
+    for (int q = 0; q < values.columns(); ++q)
+      for (int j = 0; j < values.rows(); ++j) sums[j / cell.n_sectors()] += cell.weights[q] * values(j, q);
     return sums;
   };
   compute_in_parallel(cells.size(), of_cell, [&](int, const std::vector<double>& sums) {

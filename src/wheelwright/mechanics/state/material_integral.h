@@ -11,21 +11,11 @@ template <int dim>
 std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
                                       const MaterialDensity<dim>& density);
 
-/// The points of the same quadrature in one cell.
+/// The points of the same quadrature in one cell, and their strains.
 template <int dim>
-struct StrainedCell {
-  int cell;
-  std::array<int, dim> place;    ///< the position of the cell on the grid
-  std::vector<Vec<dim>> points;  ///< of the unit cell
-  std::vector<double> weights;   ///< of the points [m^2, or m^3 when dim = 3]
-  Matrix strains;                ///< one row per load case, n_strains columns per point
-  int n_sectors;
-  const MaterialLaw<dim>& law;
-
-  int n_points() const { return static_cast<int>(weights.size()); }
-  StrainsAtPoint<dim> at(int point) const {
-    return {strain_columns<dim>(strains, n_strains<dim> * point), n_sectors, law, place, points[point]};
-  }
+struct StrainedCell : StrainsInCell<dim> {
+  int cell_index;
+  std::vector<double> weights;  ///< of the points [m^2, or m^3 when dim = 3]
 };
 
 /// The cells with material in the rows that a density covers.
@@ -52,8 +42,5 @@ template <int dim>
 void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
                    const MaterialDensity<dim>& covered,
                    const std::function<void(const StrainedCell<dim>&)>& visit);
-
-/// Strains at points of a cell in the layout of Displacement::strains(), one row per load case.
-Matrix by_load_case(const Matrix& strains);
 
 }  // namespace wheelwright

@@ -37,11 +37,11 @@ class Displacement {
   /// Strains at points of a cell of the sector's grid, in the axes that the law of the material wants
   /// (MaterialLaw): n_strains rows per point, one column per (position, sector). In the tread they are those
   /// of the grid's own nodes.
-  virtual Matrix strains(int cell, std::span<const Vec<dim>> points) const = 0;
+  virtual FactoredField strains(int cell, std::span<const Vec<dim>> points) const = 0;
 
   /// The same strains, each followed by the n_rotations rotations of the material against the rim there: half
   /// the curl of u without the rim's motion, in the same axes [rad].
-  virtual Matrix strains_and_rotations(int cell, std::span<const Vec<dim>> points) const = 0;
+  virtual FactoredField strains_and_rotations(int cell, std::span<const Vec<dim>> points) const = 0;
 };
 
 /// The largest values of every load position, over the quadrature points of the material. The tread is seen

@@ -63,7 +63,8 @@ void add_cell(const StateSolver<dim>& solver, const Displacement<dim>& displacem
               const std::vector<Vec<dim>>& points, SquaredPeaks<dim>& peaks) {
   const PolarGrid<dim>& grid = solver.model().grid;
   const MaterialLaw<dim>& law = solver.model().materials.in_row(grid, grid.cell_position(cell)[0]);
-  const Matrix by_case = displacement.strains(cell, points), strains = strains_by_component<dim>(by_case);
+  const Matrix by_case = displacement.strains(cell, points).by_rows(),
+               strains = strains_by_component<dim>(by_case);
   const auto columns = strain_columns<dim>(strains, 0);
   std::vector<double> squares(strains.rows()), axial_stresses(dim == 2 ? strains.rows() : 0),
       axial_strains(strains.rows());

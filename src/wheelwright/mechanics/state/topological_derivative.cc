@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "wheelwright/mechanics/elasticity/small_hole.h"
 #include "wheelwright/shape/geometry/gauss.h"
@@ -30,24 +31,46 @@ double work_on_small_hole(const MaterialLaw<dim>& law, const Voigt<dim>& strain_
 
 namespace {
 
+/// The same point under other strains, a block of n_strains columns for each.
+StrainsInCell<2> under(const StrainsAtPoint<2>& point, Matrix strains) {
+  const int n_points = strains.columns() / n_strains<2>;
+  return {std::move(strains), point.n_sectors, point.law, point.cell,
+          std::vector<Vec<2>>(n_points, point.xi)};
+}
+
 /// sum of factor_j M_j.
-double weighted_sum(const MaterialDensity<2>& density, const StrainsAtPoint<2>& point,
-                    std::span<const double> factors) {
-  std::vector<double> values(point.n_cases());
-  density.densities(point, values);
-  double sum = 0;
-  for (int j = 0; j < point.n_cases(); ++j) sum += factors[j] * values[j];
-  return sum;
+std::vector<double> weighted_sums(const MaterialDensity<2>& density, const StrainsInCell<2>& strains,
+                                  std::span<const double> factors) {
+  const Matrix values = density.densities(strains);
+  std::vector<double> sums(values.columns(), 0.0);
+  for (int q = 0; q < values.columns(); ++q)
+    for (int j = 0; j < values.rows(); ++j) sums[q] += factors[j] * values(j, q);
+  return sums;
 }
 
 Voigt<2> strain_in(const StrainsAtPoint<2>& point, int load_case) {
   return {point.strains[0][load_case], point.strains[1][load_case], point.strains[2][load_case]};
 }
 
-double product(const Matrix& slopes, const Matrix& strains) {
-  double sum = 0;
-  for (std::size_t i = 0; i < slopes.entries().size(); ++i) sum += slopes.entries()[i] * strains.entries()[i];
-  return sum;
+Voigt<2> combined(const Voigt<2>& a, double factor, const Voigt<2>& b) {
+  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+
+/// Sets the strain of a load case in one of the blocks of columns.
+void set_strain(const Voigt<2>& strain, int load_case, int block, Matrix& strains) {
+  for (int k = 0; k < n_strains<2>; ++k) strains(load_case, n_strains<2> * block + k) = strain[k];
+}
+
+Matrix strains_of(const StrainsAtPoint<2>& point) {
+  Matrix strains(point.n_cases(), n_strains<2>);
+  for (int j = 0; j < point.n_cases(); ++j) set_strain(strain_in(point, j), j, 0, strains);
+  return strains;
+}
+
+/// The product of the slopes and a block of strains.
+double product(const Matrix& slopes, const Matrix& strains, int block) {
+  const double* of_block = strains.column(n_strains<2> * block);
+  return std::inner_product(slopes.entries().begin(), slopes.entries().end(), of_block, 0.0);
 }
 
 }  // namespace
@@ -58,35 +81,31 @@ double removed_density(const MaterialDensity<2>& density, const StrainsAtPoint<2
                        std::span<const double> factors) {
   constexpr int n_radii = 8, n_angles = 32;
   const Material& material = *point.law.isotropic();
-  const int n_cases = point.n_cases();
-  Matrix slopes(n_cases, n_strains<2>), added(n_cases, n_strains<2>), all(n_cases, n_strains<2>),
-      opening(n_cases, n_strains<2>);
-  density.slopes(point, factors, stress_columns<2>(slopes, 0));
-  const double value = weighted_sum(density, point, factors);
   const auto [points, weights] = gauss_rule(n_radii);
-  double sum = 0;
-  for (int q = 0; q < n_radii; ++q)
-    for (int k = 0; k < n_angles; ++k) {
-      const double t = points[q], r = 1 / std::sqrt(t), angle = (k + 0.5) * std::numbers::pi / n_angles;
-      for (int j = 0; j < n_cases; ++j) {
-        const Voigt<2> strain = strain_in(point, j);
-        const Voigt<2> around =
-            strain_around_hole(material, strain, {r * std::cos(angle), r * std::sin(angle)});
-        for (int i = 0; i < n_strains<2>; ++i) {
-          added(j, i) = around[i];
-          all(j, i) = strain[i] + around[i];
-        }
-      }
-      const StrainsAtPoint<2> strained{strain_columns<2>(all, 0), point.n_sectors, point.law, point.cell,
-                                       point.xi};
-      sum += weights[q] / (t * t * n_angles) *
-             (weighted_sum(density, strained, factors) - value - product(slopes, added));
-    }
-  for (int j = 0; j < n_cases; ++j) {
+  Matrix added(point.n_cases(), n_strains<2> * n_radii * n_angles), all = added,
+                                                                    opening(point.n_cases(), n_strains<2>);
+  for (int j = 0; j < point.n_cases(); ++j) {
     const Voigt<2> strain = strain_in(point, j), hole = strain_of_hole<2>(material, strain);
-    for (int i = 0; i < n_strains<2>; ++i) opening(j, i) = hole[i] - strain[i];
+    for (int k = 0; k < n_radii * n_angles; ++k) {
+      const double r = 1 / std::sqrt(points[k / n_angles]),
+                   angle = (k % n_angles + 0.5) * std::numbers::pi / n_angles;
+      const Voigt<2> around =
+          strain_around_hole(material, strain, {r * std::cos(angle), r * std::sin(angle)});
+      set_strain(around, j, k, added);
+      set_strain(combined(strain, 1, around), j, k, all);
+    }
+    set_strain(combined(hole, -1, strain), j, 0, opening);
   }
-  return sum - value - product(slopes, opening);
+  const StrainsInCell<2> here = under(point, strains_of(point));
+  const Matrix slopes = density.slopes(here, factors);
+  const double value = weighted_sums(density, here, factors).front();
+  const std::vector<double> around = weighted_sums(density, under(point, std::move(all)), factors);
+  double sum = 0;
+  for (int k = 0; k < n_radii * n_angles; ++k) {
+    const double t = points[k / n_angles];
+    sum += weights[k / n_angles] / (t * t * n_angles) * (around[k] - value - product(slopes, added, k));
+  }
+  return sum - value - product(slopes, opening, 0);
 }
 
 template decltype(work_on_small_hole<2>) work_on_small_hole<2>;

@@ -10,14 +10,6 @@
 namespace wheelwright {
 namespace {
 
-/// Combinations of the strains of the load cases at a point, one column per component.
-template <int dim>
-Matrix combined(const Matrix& map, const StrainRows<dim>& strains) {
-  auto x = Matrix::unfilled(map.columns(), n_strains<dim>);
-  for (int k = 0; k < n_strains<dim>; ++k) std::ranges::copy(strains[k], x.column(k));
-  return product(map, Op::none, x, Op::none);
-}
-
 /// sigma(a):b / 2 of every row.
 template <int dim>
 std::vector<double> energies(const MaterialLaw<dim>& law, const StrainRows<dim>& a,
@@ -35,14 +27,14 @@ std::vector<double> energies(const MaterialLaw<dim>& law, const StrainRows<dim>&
 template <int dim>
 std::vector<double> integrated_energy(const StateSolver<dim>& solver, const State<dim>& state, int layer) {
   const TurnHarmonics turn(state.positions().size(), solver.model().grid.n_sectors);
-  const Matrix waves = turn.waves();
+  const Matrix waves = transposed(turn.waves());
   std::vector<double> result(turn.n_harmonics(), 0.0);
   for_each_cell<dim>(solver, state, LossDensity<dim>(solver.model(), layer, LossFactor(1)),
                      [&](const StrainedCell<dim>& cell) {
-                       const Matrix amplitudes = product(waves, Op::transpose, cell.strains, Op::none);
+                       const Matrix amplitudes = cell.combined(waves);
                        for (int q = 0; q < cell.n_points(); ++q) {
                          const auto strains = strain_columns<dim>(amplitudes, n_strains<dim> * q);
-                         const auto of_waves = energies<dim>(cell.law, strains, strains);
+                         const auto of_waves = energies<dim>(cell.law(), strains, strains);
                          for (int wave = 0; wave < turn.n_cases(); ++wave)
                            result[TurnHarmonics::harmonic(wave)] +=
                                cell.weights[q] * of_waves[wave] / state.positions().size();
@@ -92,32 +84,29 @@ LossDensity<dim>::LossDensity(const RollingModel<dim>& model, int layer, const L
                                loss_factor)) {}
 
 template <int dim>
-void LossDensity<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
-  const Matrix filtered = combined<dim>(filter_, point.strains);
-  std::ranges::copy(energies<dim>(point.law, point.strains, strain_columns<dim>(filtered, 0)),
-                    values.begin());
+Matrix LossDensity<dim>::densities(const StrainsInCell<dim>& cell) const {
+  const Matrix filtered = cell.combined(filter_);
+  auto values = Matrix::unfilled(cell.n_cases(), cell.n_points());
+  for (int q = 0; q < cell.n_points(); ++q)
+    std::ranges::copy(
+        energies<dim>(cell.law(), cell.at(q).strains, strain_columns<dim>(filtered, n_strains<dim> * q)),
+        values.column(q));
+  return values;
 }
 
 template <int dim>
-void LossDensity<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-                              const StressRows<dim>& slopes) const {
+Matrix LossDensity<dim>::slopes(const StrainsInCell<dim>& cell, std::span<const double> factors) const {
   // With the symmetric filter T the derivative of sum_j f_j sigma_j : (T eps)_j / 2 is the stress of half of
   // f T eps + T f eps.
-  Matrix strains = combined<dim>(filter_, point.strains);
-  auto weighted = Matrix::unfilled(strains.rows(), strains.columns());
-  for (int k = 0; k < n_strains<dim>; ++k)
-    for (int j = 0; j < strains.rows(); ++j) weighted(j, k) = factors[j] * point.strains[k][j];
-  const Matrix of_weighted = product(filter_, Op::none, weighted, Op::none);
-  for (int k = 0; k < n_strains<dim>; ++k)
-    for (int j = 0; j < strains.rows(); ++j)
-      strains(j, k) = 0.5 * (factors[j] * strains(j, k) + of_weighted(j, k));
-  point.law.stress(strain_columns<dim>(strains, 0), slopes);
-}
-
-template <int dim>
-void LossDensity<dim>::slopes_of_sum(const StrainsAtPoint<dim>& point, const StressRows<dim>& slopes) const {
-  const Matrix filtered = combined<dim>(filter_, point.strains);
-  point.law.stress(strain_columns<dim>(filtered, 0), slopes);
+  Matrix map = filter_;
+  for (int j = 0; j < map.columns(); ++j)
+    for (int i = 0; i < map.rows(); ++i) map(i, j) *= 0.5 * (factors[i] + factors[j]);
+  const Matrix strains = cell.combined(map);
+  auto slopes = Matrix::unfilled(strains.rows(), strains.columns());
+  for (int q = 0; q < cell.n_points(); ++q)
+    cell.law().stress(strain_columns<dim>(strains, n_strains<dim> * q),
+                      stress_columns<dim>(slopes, n_strains<dim> * q));
+  return slopes;
 }
 
 template <int dim>
@@ -129,18 +118,18 @@ template <int dim>
 LossOfTurn<dim>::LossOfTurn(const RollingModel<dim>& model, const LossFactor& loss_factor) {
   const TurnHarmonics turn(model.n_positions, model.grid.n_sectors);
   const auto forces = forces_by_energy<dim>(model.grid, loss_factors(model, turn.n_harmonics(), loss_factor));
-  waves_ = turn.waves();
+  waves_ = transposed(turn.waves());
   for (int wave = 0; wave < turn.n_cases(); ++wave)
     factors_.push_back(forces[TurnHarmonics::harmonic(wave)] / model.n_positions);
 }
 
 template <int dim>
-std::vector<double> LossOfTurn<dim>::densities(const StrainedCell<dim>& cell) const {
-  const Matrix amplitudes = product(waves_, Op::transpose, cell.strains, Op::none);
+std::vector<double> LossOfTurn<dim>::densities(const StrainsInCell<dim>& cell) const {
+  const Matrix amplitudes = cell.combined(waves_);
   std::vector<double> densities;
   for (int q = 0; q < cell.n_points(); ++q) {
     const auto strains = strain_columns<dim>(amplitudes, n_strains<dim> * q);
-    const auto of_waves = energies<dim>(cell.law, strains, strains);
+    const auto of_waves = energies<dim>(cell.law(), strains, strains);
     densities.push_back(std::inner_product(of_waves.begin(), of_waves.end(), factors_.begin(), 0.0));
   }
   return densities;

@@ -36,11 +36,8 @@ class LossDensity : public MaterialDensity<dim> {
   /// With this loss factor, at the model's speed.
   LossDensity(const RollingModel<dim>& model, int layer, const LossFactor& loss_factor);
 
-  void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
-  void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-              const StressRows<dim>& slopes) const override;
-  /// slopes() with all factors 1, in half of the time.
-  void slopes_of_sum(const StrainsAtPoint<dim>& point, const StressRows<dim>& slopes) const;
+  Matrix densities(const StrainsInCell<dim>& cell) const override;
+  Matrix slopes(const StrainsInCell<dim>& cell, std::span<const double> factors) const override;
   bool covers(const PolarGrid<dim>& grid, int row) const override;
 
  private:
@@ -56,10 +53,10 @@ class LossOfTurn {
   LossOfTurn(const RollingModel<dim>& model, const LossFactor& loss_factor);
 
   /// At the points of a cell [N/m^3].
-  std::vector<double> densities(const StrainedCell<dim>& cell) const;
+  std::vector<double> densities(const StrainsInCell<dim>& cell) const;
 
  private:
-  Matrix waves_;                 ///< TurnHarmonics::waves()
+  Matrix waves_;                 ///< TurnHarmonics::waves(), transposed
   std::vector<double> factors_;  ///< force by the energy of a wave
 };
 

@@ -62,12 +62,10 @@ ValuesOfCells utilizations(const StateSolver<dim>& solver, const State<dim>& sta
     if (!state.domain().active(cell)) continue;
     const auto place = grid.cell_position(cell);
     const MaterialLaw<dim>& law = model.materials.in_row(grid, place[0]);
-    const Matrix strains = by_load_case(state.displacement().strains(cell, nodes));
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      const StrainsAtPoint<dim> point{strain_columns<dim>(strains, n_strains<dim> * static_cast<int>(a)),
-                                      grid.n_sectors, law, place, nodes[a]};
-      values[cell].push_back(PointUtilization<dim>(point).value());
-    }
+    const StrainsInCell<dim> strains(state.displacement().strains(cell, nodes), grid.n_sectors, law, place,
+                                     nodes);
+    for (int a = 0; a < strains.n_points(); ++a)
+      values[cell].push_back(PointUtilization<dim>(strains.at(a)).value());
   }
   return values;
 }

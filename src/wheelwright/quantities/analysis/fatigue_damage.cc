@@ -57,9 +57,9 @@ Expected<std::vector<UtilizedPoints>> utilized_points(const StateSolver<dim>& so
   const PolarGrid<dim>& grid = solver.model().grid;
   std::vector<UtilizedPoints> layers(materials.layers().size());
   for_each_cell<dim>(solver, state, UtilizationPower<dim>(materials, 2), [&](const StrainedCell<dim>& cell) {
-    UtilizedPoints& layer = layers[materials.layer_at(grid.middle_of_row(grid.cell_position(cell.cell)[0]))];
+    UtilizedPoints& layer = layers[materials.layer_at(grid.middle_of_row(cell.cell()[0]))];
     for (int q = 0; q < cell.n_points(); ++q) {
-      layer.places.push_back(three_coordinates(place_in_body<dim>(grid, cell.cell, cell.points[q])));
+      layer.places.push_back(three_coordinates(place_in_body<dim>(grid, cell.cell_index, cell.points()[q])));
       const StrainsAtPoint<dim> point = cell.at(q);
       layer.utilizations.push_back(PointUtilization<dim>(point).value());
     }

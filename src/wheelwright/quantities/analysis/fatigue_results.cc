@@ -19,12 +19,13 @@ std::vector<Worst> worst_of_layers(const StateSolver<dim>& solver, const State<d
   const PolarGrid<dim>& grid = solver.model().grid;
   std::vector<Worst> worst(materials.layers().size(), {0, {}, {}});
   for_each_cell<dim>(solver, state, UtilizationPower<dim>(materials, 2), [&](const StrainedCell<dim>& cell) {
-    Worst& of_layer = worst[materials.layer_at(grid.middle_of_row(grid.cell_position(cell.cell)[0]))];
+    Worst& of_layer = worst[materials.layer_at(grid.middle_of_row(cell.cell()[0]))];
     for (int q = 0; q < cell.n_points(); ++q) {
       const StrainsAtPoint<dim> point = cell.at(q);
       const double found = PointUtilization<dim>(point, of_layer.utilization).value();
       if (found > of_layer.utilization)
-        of_layer = {found, {}, three_coordinates(place_in_body<dim>(grid, cell.cell, cell.points[q]))};
+        of_layer = {
+            found, {}, three_coordinates(place_in_body<dim>(grid, cell.cell_index, cell.points()[q]))};
     }
   });
   for (std::size_t k = 0; k < worst.size(); ++k)

@@ -60,7 +60,7 @@ void add_cell(const StateSolver<dim>& solver, const Displacement<dim>& displacem
   const PolarGrid<dim>& grid = solver.model().grid;
   const std::vector<Vec<dim>>& points = cell.quadrature.points;
   const MaterialLaw<dim>& law = solver.model().materials.in_row(grid, grid.cell_position(cell.cell)[0]);
-  const Matrix values = by_load_case(displacement.strains_and_rotations(cell.cell, points));
+  const Matrix values = displacement.strains_and_rotations(cell.cell, points).by_load_case();
   Matrix stresses(values.rows(), n_strains<dim>);
   for (std::size_t q = 0; q < points.size(); ++q) {
     const int first = n_values * static_cast<int>(q);

@@ -9,14 +9,14 @@
 
 namespace wheelwright {
 template <int dim>
-void VonMisesPower<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
+void VonMisesPower<dim>::densities_at(const StrainsAtPoint<dim>& point, std::span<double> values) const {
   point.law.squared_von_mises(point.strains, values);
   for (double& value : values) value = integer_power(value / (unit * unit), exponent_ / 2);
 }
 
 template <int dim>
-void VonMisesPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-                                const StressRows<dim>& slopes) const {
+void VonMisesPower<dim>::slopes_at(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                                   const StressRows<dim>& slopes) const {
   std::vector<double> squares(point.n_cases());
   point.law.squared_von_mises(point.strains, squares);
   point.law.squared_von_mises_slope(point.strains, slopes);
@@ -50,11 +50,11 @@ FunctionalValue<dim> PeakVonMises<dim>::evaluate(const StateSolver<dim>& solver,
   const auto of_cell = [&](int k) {
     const StrainedCell<dim> cell = cells[k];
     Sums sums{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
-    std::vector<double> squares(cell.strains.rows());
+    std::vector<double> squares(cell.n_cases());
     for (int q = 0; q < cell.n_points(); ++q) {
-      cell.law.squared_von_mises(cell.at(q).strains, squares);
+      cell.law().squared_von_mises(cell.at(q).strains, squares);
       for (size_t j = 0; j < squares.size(); ++j) {
-        const size_t position = j / cell.n_sectors;
+        const size_t position = j / cell.n_sectors();
         sums.squared_peaks[position] = std::max(sums.squared_peaks[position], squares[j]);
         sums.integrals[position] +=
             cell.weights[q] * integer_power(squares[j] / (unit * unit), norm_.exponent / 2);

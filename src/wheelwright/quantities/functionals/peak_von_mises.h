@@ -10,7 +10,7 @@ namespace wheelwright {
 /// The p-th power of the von Mises stress in MPa, in the rows of cells that lie wholly farther from the tread
 /// than a given distance, and in a part of the ring if one is given.
 template <int dim>
-class VonMisesPower : public MaterialDensity<dim> {
+class VonMisesPower : public DensityOfHistory<dim> {
  public:
   /// The unit of the stress, which keeps high powers within the range of numbers [Pa].
   static constexpr double unit = 1e6;
@@ -19,9 +19,9 @@ class VonMisesPower : public MaterialDensity<dim> {
   VonMisesPower(int exponent, double from_tread, std::optional<PartOfRing> part)
       : exponent_(exponent), from_tread_(from_tread), part_(std::move(part)) {}
 
-  void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
-  void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
-              const StressRows<dim>& slopes) const override;
+  void densities_at(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
+  void slopes_at(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                 const StressRows<dim>& slopes) const override;
   bool covers(const PolarGrid<dim>& grid, int row) const override;
 
  private:
