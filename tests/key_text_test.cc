@@ -57,7 +57,7 @@ TEST(KeyText, OfEveryKeyComesBack) {
   for (const Preset& preset : presets()) {
     const Case c = case_of(std::string(preset.text));
     for (const char* path : {"wheel.sectors", "load.positions", "grid.radial_cells", "grid.angular_cells",
-                             "contact.friction", "optimizer.iterations", "material.E", "title"}) {
+                             "contact.friction", "optimizer.iterations", "material.youngs_modulus", "title"}) {
       const auto value = key_text(c, path);
       ASSERT_TRUE(value) << path;
       EXPECT_EQ(case_of(with(path, *value, std::string(preset.text))), c) << preset.name << " " << path;
@@ -87,6 +87,17 @@ TEST(KeyText, AddsTablesAndRemovesKeys) {
   EXPECT_EQ(case_of(two).holes.rings.front().count, 16);
   EXPECT_EQ(with("wheel.sectors", "").find("sectors"), std::string::npos);
   EXPECT_EQ(with("load.travel", ""), text);
+}
+
+/// A table that only its parts imply, and one that stands in a line.
+TEST(KeyText, AddsTheTableThatOthersImply) {
+  const std::string term = "[[objective.term]]\nquantity = \"travel\"\nweight = 200\n";
+  const Case c = case_of(with("objective.strain_energy", "0.5", text + term));
+  EXPECT_EQ(*key_text(c, "objective.strain_energy"), "0.5");
+  EXPECT_EQ(c.objective.terms.size(), 1);
+  const std::string spaced = "[ contact ] # ground\ngamma_0 = 20\n" + text;
+  EXPECT_EQ(*key_text(case_of(with("contact.friction", "0.3", spaced)), "contact.gamma_0"), "20");
+  EXPECT_FALSE(with_key("contact = {gamma_0 = 20}\n" + text, "contact.friction", "0.3"));
 }
 
 TEST(KeyText, FindsPlacesBehindLettersOfSeveralBytes) {

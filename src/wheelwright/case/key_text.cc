@@ -107,6 +107,11 @@ std::string joined_names(const std::vector<TablePlace>& tables) {
   return result;
 }
 
+std::string without_spaces(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
+  return text;
+}
+
 /// The text without the lines from the key to the end of its value.
 std::string without(std::string text, const toml::table& table, const std::string& name) {
   const auto entry = table.find(name);
@@ -152,15 +157,17 @@ Expected<std::string, KeyProblem> with_key(std::string_view text, const std::str
   if (value.empty() || (found.table && found.table->contains(place->key))) return result;
   const std::string line = fmt::format("{} = {}\n", place->key, value);
   if (place->tables.empty()) return line + result;
-  if (found.table && found.table->source().begin.line > 0) {
-    const std::size_t header = offset(result, found.table->source().begin);
-    if (result[header] == '[') return result.insert(result.find('\n', header) + 1, line);
-  }
-  if (!found.is_next)
-    return KeyProblem{
-        fmt::format("{}: there are fewer tables [[{}]], or not as tables of their own", path, table_name)};
   const bool is_array = place->tables.back().index.has_value();
   const std::string header = is_array ? fmt::format("[[{}]]", table_name) : fmt::format("[{}]", table_name);
+  if (found.table) {
+    const std::size_t begin = offset(result, found.table->source().begin), end = result.find('\n', begin);
+    if (without_spaces(result.substr(begin, end - begin)).starts_with(header))
+      return result.insert(end + 1, line);
+  }
+  const bool is_implied = found.table && !found.table->is_inline();
+  if (!found.is_next && !is_implied)
+    return KeyProblem{
+        fmt::format("{}: there are fewer tables [[{}]], or not as tables of their own", path, table_name)};
   return fmt::format("{}\n{}\n{}", result, header, line);
 }
 
