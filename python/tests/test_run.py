@@ -11,6 +11,14 @@ import wheelwright as ww
 from wheels import small
 
 
+RING_OF_AIR = """
+[[shape.annulus]]
+inner_radius = 0.24
+outer_radius = 0.29
+as = "hole"
+"""
+
+
 class Folder(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -97,10 +105,11 @@ class Runs(Folder):
         self.assertEqual(run.execute().progress.iteration, 4)
 
     def test_failed_start_says_why(self):
-        case = small().replace({"holes.ring[1].radius": 0.0525, "holes.ring[1].count": 16})
-        result = ww.Run(case, self.folder / "run").execute()
-        self.assertEqual(result.reason, "failed_start")
-        self.assertIsNone(result.progress)
+        start = small().text.index("[[holes.ring]]"), small().text.index("[grid]")
+        text = small().text[: start[0]] + RING_OF_AIR + small().text[start[1] :]
+        result = ww.Run(ww.Case.parse(text), self.folder / "run").execute()
+        self.assertEqual((result.reason, result.progress), ("failed_start", None))
+        self.assertIn("tread_cut_off", result.failure)
 
     def test_ctrl_c_saves_first(self):
         code = (

@@ -246,7 +246,20 @@ class Study:
         step: float | None = None,
         halvings: int = 3,
     ) -> TaylorTest:
-        """The Taylor test of a function's gradient along a change of the level set.
+        """That of one function of :meth:`taylor_tests`."""
+        tests = self.taylor_tests(shape, direction, step, halvings)
+        if function not in tests:
+            raise KeyError(f"no function is named {function}; there are {', '.join(tests)}")
+        return tests[function]
+
+    def taylor_tests(
+        self,
+        shape: Shape | None = None,
+        direction: Array | None = None,
+        step: float | None = None,
+        halvings: int = 3,
+    ) -> dict[str, TaylorTest]:
+        """The Taylor tests of all functions' gradients along a change of the level set, by their names.
 
         By default along a smooth field, from a generic shape beside the given one: at the shape itself edges
         may lie on nodes, and the wheel may be symmetric.
@@ -258,9 +271,7 @@ class Study:
             at = at.moved(direction, 2 * step)
         along = np.ascontiguousarray(direction, dtype=float)
         tests = self._core.taylor_tests(at._core, along, step, halvings)
-        if function not in tests:
-            raise KeyError(f"no function is named {function}; there are {', '.join(tests)}")
-        return TaylorTest(*tests[function])
+        return {function: TaylorTest(*test) for function, test in tests.items()}
 
     def check_gradients(self, shape: Shape | None = None) -> list[GradientCheck]:
         """The Taylor tests of all functions, as ``wheelwright verify`` makes them.
