@@ -47,7 +47,9 @@ RollingModel<2> lopsided_model(const Materials<2>& materials) {
   auto model = paper_model(14, 192);
   model.materials = materials;
   model.n_positions = 4;
-  model.cut_points = 8;  // the derivative of an integral over cut cells is exact up to their quadrature
+  // The derivative of an integral over cut cells is exact up to their quadrature. Dang Van's measure wants so
+  // many points: the center of the path of the stresses changes fast from point to point.
+  model.cut_points = 12;
   model.contact.friction = 0.4;
   model.torque = 200;
   model.distributed = {{3e4, 1e4}, 1e4};
@@ -79,8 +81,6 @@ double error_of_derivative(const TaylorTest& test) {
   return test.remainders.back() / std::abs(test.derivative * test.steps.back());
 }
 
-/// The derivatives are exact up to the quadrature of the cut cells, which for Dang Van's measure is seen: the
-/// center of the path of the stresses changes fast from point to point.
 TEST(Fatigue, PassesTheTaylorTest) {
   for (const FatigueMeasure measure : all_measures)
     for (const Plane plane : {Plane::strain, Plane::stress}) {
@@ -88,10 +88,8 @@ TEST(Fatigue, PassesTheTaylorTest) {
       const auto model = lopsided_model(tired(measure, plane));
       const auto psi = generic_hole(model.grid);
       const TaylorTest test = tested<2>(model, psi, testing::smooth_direction(psi.lattice));
-      if (measure != FatigueMeasure::dang_van) {
-        for (const double order : test.orders) EXPECT_GT(order, 1.9);
-      }
-      EXPECT_LT(error_of_derivative(test), measure == FatigueMeasure::dang_van ? 1e-3 : 5e-4);
+      for (const double order : test.orders) EXPECT_GT(order, 1.9);
+      EXPECT_LT(error_of_derivative(test), 5e-4);
     }
 }
 
@@ -127,24 +125,32 @@ RollingModel<3> solid_model(int axial_cells) {
   return model;
 }
 
-TEST(Fatigue, PassesTheTaylorTestIn3D) {
-  for (const FatigueMeasure measure : {FatigueMeasure::dang_van, FatigueMeasure::principal_strain}) {
-    auto model = solid_model(2);
-    model.materials = tired(measure);
-    model.contact.friction = 0.5;
-    model.torque = 120;
-    model.lateral_force = 350;
-    const Circle hole{0.2581, 0.47 * model.grid.sector_angle(), 0.0273};
-    auto psi = make_level_set<3>(Lattice<3>(model.grid, 1), std::span(&hole, 1));
-    std::vector<double> direction;
-    for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
-      const Vec<3> p = psi.lattice.polar_point(i);
-      psi.values[i] += 0.002 * std::cos(20 * p[2]);
-      direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(15 * p[2]));
-    }
-    EXPECT_LT(error_of_derivative(tested<3>(model, psi, direction)),
-              measure == FatigueMeasure::dang_van ? 2e-3 : 5e-4);
+/// With friction and a torque, not its own mirror image in any plane.
+TaylorTest tested_in_3d(FatigueMeasure measure, int cut_points) {
+  auto model = solid_model(2);
+  model.materials = tired(measure);
+  model.cut_points = cut_points;
+  model.contact.friction = 0.5;
+  model.torque = 120;
+  model.lateral_force = 350;
+  const Circle hole{0.2581, 0.47 * model.grid.sector_angle(), 0.0273};
+  auto psi = make_level_set<3>(Lattice<3>(model.grid, 1), std::span(&hole, 1));
+  std::vector<double> direction;
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<3> p = psi.lattice.polar_point(i);
+    psi.values[i] += 0.002 * std::cos(20 * p[2]);
+    direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(15 * p[2]));
   }
+  return tested<3>(model, psi, direction);
+}
+
+TEST(Fatigue, PassesTheTaylorTestIn3D) {
+  for (const double order : tested_in_3d(FatigueMeasure::principal_strain, 4).orders) EXPECT_GT(order, 1.9);
+  EXPECT_LT(error_of_derivative(tested_in_3d(FatigueMeasure::dang_van, 8)), 5e-4);
+}
+
+TEST(Fatigue, OfDangVanPassesTheTaylorTestIn3DSlow) {
+  for (const double order : tested_in_3d(FatigueMeasure::dang_van, 16).orders) EXPECT_GT(order, 1.9);
 }
 
 template <int dim>

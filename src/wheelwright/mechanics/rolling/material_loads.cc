@@ -15,7 +15,7 @@ namespace {
 template <int dim>
 Matrix cell_loads(const StrainsInCell<dim>& strains, std::span<const double> weights,
                   std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
-  Matrix stresses(strains.n_cases(), strains.strains().columns());
+  Matrix stresses(strains.n_cases(), n_strains<dim> * strains.n_points());
   for (const auto& [density, factors] : integrals) {
     std::vector<double> of_case(strains.n_cases());
     for (int load_case = 0; load_case < strains.n_cases(); ++load_case)

@@ -34,7 +34,8 @@ struct FactoredField {
   Matrix by_load_case() const { return product(factors, Op::transpose, map, Op::transpose); }
 };
 
-/// The strains of some points of one cell of a sector in all load cases, each as StrainsAtPoint.
+/// The strains of some points of one cell of a sector in all load cases, each as StrainsAtPoint. Not for
+/// several threads at once.
 template <int dim>
 class StrainsInCell {
  public:
@@ -42,7 +43,6 @@ class StrainsInCell {
   StrainsInCell(FactoredField strains, int n_sectors, const MaterialLaw<dim>& law,
                 const std::array<int, dim>& cell, std::vector<Vec<dim>> points)
       : factored_(std::move(strains)),
-        strains_(factored_->by_load_case()),
         n_sectors_(n_sectors),
         law_(law),
         cell_(cell),
@@ -57,17 +57,20 @@ class StrainsInCell {
         cell_(cell),
         points_(std::move(points)) {}
 
-  int n_cases() const { return strains_.rows(); }
+  int n_cases() const { return factored_ ? factored_->factors.columns() : strains_->rows(); }
   int n_points() const { return static_cast<int>(points_.size()); }
   int n_sectors() const { return n_sectors_; }
   const MaterialLaw<dim>& law() const { return law_; }
   const std::array<int, dim>& cell() const { return cell_; }
   const std::vector<Vec<dim>>& points() const { return points_; }
 
-  /// One row per load case, n_strains columns per point.
-  const Matrix& strains() const { return strains_; }
+  /// One row per load case, n_strains columns per point. The first call multiplies the factors.
+  const Matrix& strains() const {
+    if (!strains_) strains_ = factored_->by_load_case();
+    return *strains_;
+  }
   StrainsAtPoint<dim> at(int point) const {
-    return {strain_columns<dim>(strains_, n_strains<dim> * point), n_sectors_, law_, cell_, points_[point]};
+    return {strain_columns<dim>(strains(), n_strains<dim> * point), n_sectors_, law_, cell_, points_[point]};
   }
 
   /// The map of strains that were given with one.
@@ -75,14 +78,14 @@ class StrainsInCell {
 
   /// Linear combinations of the load cases, one for every row of `map`: map * strains(), and cheaper.
   Matrix combined(const Matrix& map) const {
-    if (!factored_) return product(map, Op::none, strains_, Op::none);
+    if (!factored_) return product(map, Op::none, *strains_, Op::none);
     const Matrix factors = product(map, Op::none, factored_->factors, Op::transpose);
     return product(factors, Op::none, factored_->map, Op::transpose);
   }
 
  private:
   std::optional<FactoredField> factored_;
-  Matrix strains_;
+  mutable std::optional<Matrix> strains_;
   int n_sectors_;
   const MaterialLaw<dim>& law_;
   std::array<int, dim> cell_;
