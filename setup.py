@@ -15,8 +15,8 @@ top = Path(__file__).resolve().parent
 class CMakeBuild(build_ext):
     """Installs the component `python` of a CMake build into the package.
 
-    WHEELWRIGHT_BUILD names a build to use, configured with WHEELWRIGHT_PYTHON for the same Python; otherwise
-    one is made in build/pip.
+    WHEELWRIGHT_BUILD names a finished build to use, configured with WHEELWRIGHT_PYTHON for the same Python;
+    otherwise one is made in build/pip.
     """
 
     def run(self) -> None:
@@ -32,7 +32,7 @@ class CMakeBuild(build_ext):
             }
             settings = [f"-D{name}={value}" for name, value in options.items()]
             self.call("cmake", "-G", "Ninja", "-S", top, "-B", build, *settings)
-        self.call("cmake", "--build", build, "--target", "python_package")
+            self.call("cmake", "--build", build, "--target", "python_package")
         prefix = Path(self.build_temp) / "prefix"
         self.call("cmake", "--install", build, "--prefix", prefix, "--component", "python")
         package = Path(self.build_lib) / "wheelwright"

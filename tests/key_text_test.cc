@@ -56,8 +56,9 @@ TEST(KeyText, OfAnUnknownKeyIsAProblemThatNamesASimilarOne) {
 TEST(KeyText, OfEveryKeyComesBack) {
   for (const Preset& preset : presets()) {
     const Case c = case_of(std::string(preset.text));
-    for (const char* path : {"wheel.sectors", "load.positions", "grid.radial_cells", "grid.angular_cells",
-                             "contact.friction", "optimizer.iterations", "material.youngs_modulus", "title"}) {
+    for (const char* path :
+         {"wheel.sectors", "load.positions", "grid.radial_cells", "grid.angular_cells", "contact.friction",
+          "optimizer.iterations", "material.youngs_modulus", "title"}) {
       const auto value = key_text(c, path);
       ASSERT_TRUE(value) << path;
       EXPECT_EQ(case_of(with(path, *value, std::string(preset.text))), c) << preset.name << " " << path;

@@ -120,7 +120,10 @@ class HeldRun {
   void send(const std::string& json) {
     auto command = parse_command(json);
     if (!command) throw py::value_error(command.failure().reason);
-    commands_->push(*std::move(command));
+    // The queue's owner may wait for the GIL, to ask for signals.
+    const auto commands = commands_;
+    const py::gil_scoped_release release;
+    commands->push(*std::move(command));
   }
 
   /// (reason, state, how many trials failed at the end). Callbacks may be None.
@@ -138,7 +141,7 @@ class HeldRun {
     const int degree = run_->study().model().degree;
     const auto end = [this] {
       run_.reset();
-      commands_ = std::make_unique<CommandQueue>();
+      commands_ = std::make_shared<CommandQueue>();
     };
     std::optional<RunResult<dim>> result;
     try {
@@ -172,7 +175,7 @@ class HeldRun {
 
   std::string folder_;
   std::optional<Run<dim>> run_;
-  std::unique_ptr<CommandQueue> commands_ = std::make_unique<CommandQueue>();
+  std::shared_ptr<CommandQueue> commands_ = std::make_shared<CommandQueue>();
 };
 
 }  // namespace

@@ -68,6 +68,23 @@ py::array stress(const HeldState<dim>& held, int position) {
                     }));
 }
 
+/// Of every load position of a sector, images too: places along the ground and pressures, (place, pressure).
+template <int dim>
+py::list pressure_curves(const HeldState<dim>& held) {
+  const auto points =
+      without_gil([&] { return curve_points<dim>(contact_points<dim>(*held.solver, *held.state)); });
+  std::vector<std::array<std::vector<double>, 2>> curves;
+  for (const ContactPoint& point : points) {
+    curves.resize(std::max<std::size_t>(curves.size(), point.position + 1));
+    curves[point.position][0].push_back(point.x);
+    curves[point.position][1].push_back(point.pressure);
+  }
+  py::list result;
+  for (auto& [places, pressures] : curves)
+    result.append(py::make_tuple(owned(std::move(places)), owned(std::move(pressures))));
+  return result;
+}
+
 /// A cell with its strains, which it owns.
 template <int dim>
 struct HeldCell {
@@ -132,7 +149,8 @@ void bind_cells(py::module_& m) {
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", [](HeldCells<dim>& held) {
         if (held.next == held.cells.size()) throw py::stop_iteration();
-        return without_gil([&] { return HeldCell<dim>{held.held, held.cells[held.next++]}; });
+        const int k = held.next++;
+        return without_gil([&] { return HeldCell<dim>{held.held, held.cells[k]}; });
       });
 }
 
@@ -286,6 +304,7 @@ void bind_state(py::module_& m) {
                              })
       .def("displacement", &displacement<dim>)
       .def("stress", &stress<dim>)
+      .def("pressure_curves", &pressure_curves<dim>)
       .def("cells",
            [](const Held& held) {
              return without_gil([&] { return std::make_unique<HeldCells<dim>>(held); });

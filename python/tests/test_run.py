@@ -1,11 +1,10 @@
+import os
 import pickle
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
-
-import numpy as np
 
 import wheelwright as ww
 from wheels import small
@@ -132,6 +131,29 @@ class Runs(Folder):
             cwd=Path(__file__).parent,
         )
         self.assertEqual(done.stdout.split(), ["interrupted", "3"], done.stderr)
+
+
+@unittest.skipUnless("WHEELWRIGHT_PROGRAM" in os.environ, "needs the program")
+class TheProgram(Folder):
+    def test_writes_the_same_bytes(self):
+        """With the kernels of OpenBLAS that the program chooses, which numpy has not loaded before."""
+        (self.folder / "case.toml").write_text(small().text)
+        code = "import wheelwright as ww; ww.Run(ww.Case('case.toml'), 'module').execute()"
+        for command in (
+            [os.environ["WHEELWRIGHT_PROGRAM"], "run", "case.toml", "--output", "program"],
+            [sys.executable, "-c", code],
+        ):
+            subprocess.run(command, cwd=self.folder, check=True, capture_output=True, timeout=120)
+        program, module = ({*names(self.folder / name)} for name in ("program", "module"))
+        self.assertEqual(program, module)
+        for name in ("shape.levelset", "summary.json", "shape.svg", "case.toml"):
+            there, here = (self.folder / which / name for which in ("program", "module"))
+            self.assertEqual(there.read_bytes(), here.read_bytes(), name)
+
+
+def names(folder):
+    """Of the files of a run, without checkpoints."""
+    return (str(file.relative_to(folder)) for file in folder.rglob("*") if "checkpoints" not in file.parts)
 
 
 class Designs(Folder):

@@ -99,6 +99,13 @@ class States(unittest.TestCase):
             force = contact.weight @ contact.pressure
             self.assertAlmostEqual(force / contact.rim_force.towards_ground, 1, places=8)
 
+    def test_pressure_curves_are_of_all_positions(self):
+        symmetric = ww.Study(small().replace({"load.positions": 4})).evaluate().state
+        self.assertEqual((symmetric.n_positions, len(symmetric.pressure_curves())), (3, 4))
+        for (place, pressure), contact in zip(self.state.pressure_curves(), self.state.contacts):
+            centre = contact.weight @ (contact.pressure * contact.place[:, 1]) / (contact.weight @ contact.pressure)
+            self.assertAlmostEqual(place @ pressure / pressure.sum(), centre, delta=1e-3)
+
     def test_arrays_have_their_shapes(self):
         n = self.state.n_positions
         self.assertEqual((n, self.state.n_sectors), (3, 8))

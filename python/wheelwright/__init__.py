@@ -29,7 +29,15 @@ from .errors import (
     RunError,
     UnknownKeyError,
 )
-from .functionals import ByPosition, EdgeDensity, Functional, MaterialDensity, OverPositions, TotalFunctional
+from .functionals import (
+    ByPosition,
+    EdgeDensity,
+    Functional,
+    MaterialDensity,
+    OverPositions,
+    OwnFunctional,
+    TotalFunctional,
+)
 from .optimizer import Evolver, Optimizer, Progress, Trial
 from .results import RollingAnalysis, analyze, export
 from .run import Finding, Run, RunResult
@@ -64,6 +72,7 @@ __all__ = [
     "Optimizer",
     "OutputError",
     "OverPositions",
+    "OwnFunctional",
     "Problem",
     "Progress",
     "RimForce",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
@@ -247,5 +247,3 @@ class EdgeDensity(OwnFunctional):
         gradient = np.broadcast_to(np.asarray(gradients, dtype=float), places.shape)
         return np.ascontiguousarray(n), np.ascontiguousarray(gradient)
 
-
-AnyFunctional = Union[Functional, TotalFunctional, MaterialDensity, EdgeDensity]

@@ -279,6 +279,14 @@ class State:
         """The largest von Mises stress of every position, at the quadrature points [Pa], (position,)."""
         return self._core.largest_von_mises
 
+    def pressure_curves(self) -> list[tuple[FloatArray, FloatArray]]:
+        """The contact pressure of every load position of a sector, mirror images too, as reports show it.
+
+        For each position the places along the ground [m] and the pressures there [Pa], means over the cells
+        at the tread; in 3D in the middle of the width.
+        """
+        return self._core.pressure_curves()
+
     def cells(self) -> Iterator[Cell]:
         """The cells of one sector that contain material, with their strains, one after the other."""
         for cell in self._core.cells():

@@ -159,7 +159,7 @@ class Evaluation(Mapping[str, FunctionValue]):
 
 
 class TaylorTest(NamedTuple):
-    """The error of the linear prediction of a function as the step is halved: |J(t) - J(0) - t J'(0)|."""
+    """The error of the linear prediction of a function as the step is halved: abs(J(t) - J(0) - t J'(0))."""
 
     value: float
     derivative: float

@@ -1,5 +1,7 @@
 #include "wheelwright/case/key_paths.h"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "wheelwright/case/suggest.h"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <concepts>
 #include <functional>
 #include <string>
 
