@@ -11,7 +11,7 @@
 namespace wheelwright {
 namespace {
 
-const std::string text = R"(# A wheel
+const std::string wheel = R"(# A wheel
 [wheel]
 sectors = 8  # eight
 [load]
@@ -28,14 +28,14 @@ Case case_of(const std::string& text) {
   return *read.value;
 }
 
-std::string with(const std::string& path, const std::string& value, const std::string& given = text) {
+std::string with(const std::string& path, const std::string& value, const std::string& given = wheel) {
   const auto result = with_key(given, path, value);
   if (!result) ADD_FAILURE() << result.failure().text;
   return result ? *result : "";
 }
 
 TEST(KeyText, IsTheValueInTheUnitOfTheFile) {
-  const Case c = case_of(text);
+  const Case c = case_of(wheel);
   EXPECT_EQ(*key_text(c, "wheel.sectors"), "8");
   EXPECT_EQ(*key_text(c, "load.mass"), "25");
   EXPECT_EQ(*key_text(c, "holes.ring[1].radius"), "0.03");
@@ -44,12 +44,12 @@ TEST(KeyText, IsTheValueInTheUnitOfTheFile) {
 }
 
 TEST(KeyText, OfAnUnknownKeyIsAProblemThatNamesASimilarOne) {
-  const auto unknown = key_text(case_of(text), "wheel.sector");
+  const auto unknown = key_text(case_of(wheel), "wheel.sector");
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.failure().text.find("wheel.sectors"), std::string::npos);
-  EXPECT_FALSE(with_key(text, "load.mess", "3"));
-  EXPECT_FALSE(with_key(text, "holes.ring[3].radius", "0.02"));
-  EXPECT_FALSE(with_key(text, "holes.ring[x].radius", "0.02"));
+  EXPECT_FALSE(with_key(wheel, "load.mess", "3"));
+  EXPECT_FALSE(with_key(wheel, "holes.ring[3].radius", "0.02"));
+  EXPECT_FALSE(with_key(wheel, "holes.ring[x].radius", "0.02"));
 }
 
 /// Every key of every preset, set to its own value in its own text, gives the same case.
@@ -67,7 +67,7 @@ TEST(KeyText, OfEveryKeyComesBack) {
 }
 
 TEST(KeyText, IsReplacedInPlace) {
-  EXPECT_EQ(with("wheel.sectors", "16").find("sectors = 16  # eight"), text.find("sectors = 8"));
+  EXPECT_EQ(with("wheel.sectors", "16").find("sectors = 16  # eight"), wheel.find("sectors = 8"));
   EXPECT_EQ(case_of(with("holes.ring[1].radius", "0.02")).holes.rings.front().radius, 0.02);
 }
 
@@ -75,7 +75,7 @@ TEST(KeyText, ReplacesItsAlternatives) {
   const std::string changed = with("load.force", "600");
   EXPECT_EQ(changed.find("mass"), std::string::npos);
   EXPECT_EQ(*key_text(case_of(changed), "load.force"), "600");
-  EXPECT_EQ(case_of(with("load.mass", "25", changed)), case_of(text));
+  EXPECT_EQ(case_of(with("load.mass", "25", changed)), case_of(wheel));
 }
 
 TEST(KeyText, AddsTablesAndRemovesKeys) {
@@ -87,22 +87,22 @@ TEST(KeyText, AddsTablesAndRemovesKeys) {
   EXPECT_EQ(case_of(two).holes.rings.size(), 2);
   EXPECT_EQ(case_of(two).holes.rings.front().count, 16);
   EXPECT_EQ(with("wheel.sectors", "").find("sectors"), std::string::npos);
-  EXPECT_EQ(with("load.travel", ""), text);
+  EXPECT_EQ(with("load.travel", ""), wheel);
 }
 
 /// A table that only its parts imply, and one that stands in a line.
 TEST(KeyText, AddsTheTableThatOthersImply) {
   const std::string term = "[[objective.term]]\nquantity = \"travel\"\nweight = 200\n";
-  const Case c = case_of(with("objective.strain_energy", "0.5", text + term));
+  const Case c = case_of(with("objective.strain_energy", "0.5", wheel + term));
   EXPECT_EQ(*key_text(c, "objective.strain_energy"), "0.5");
   EXPECT_EQ(c.objective.terms.size(), 1);
-  const std::string spaced = "[ contact ] # ground\ngamma_0 = 20\n" + text;
+  const std::string spaced = "[ contact ] # ground\ngamma_0 = 20\n" + wheel;
   EXPECT_EQ(*key_text(case_of(with("contact.friction", "0.3", spaced)), "contact.gamma_0"), "20");
-  EXPECT_FALSE(with_key("contact = {gamma_0 = 20}\n" + text, "contact.friction", "0.3"));
+  EXPECT_FALSE(with_key("contact = {gamma_0 = 20}\n" + wheel, "contact.friction", "0.3"));
 }
 
 TEST(KeyText, FindsPlacesBehindLettersOfSeveralBytes) {
-  const std::string accented = "title = \"Räder\" # größer\n" + text;
+  const std::string accented = "title = \"Räder\" # größer\n" + wheel;
   EXPECT_EQ(case_of(with("title", "\"x\"", accented)).title, "x");
   EXPECT_EQ(case_of(with("load.mass", "30", accented)).title, "Räder");
 }
