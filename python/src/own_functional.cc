@@ -142,9 +142,11 @@ class OwnDensity : public MaterialDensity<dim> {
     const auto values = py::cast<py::array_t<double>>(call("_values", cell));
     Matrix result = Matrix::unfilled(cell.n_cases(), cell.n_points());
     const auto at = values.template unchecked<3>();
-    for (int point = 0; point < cell.n_points(); ++point)
-      for (int j = 0; j < cell.n_cases(); ++j)
-        result(j, point) = at(j / cell.n_sectors(), j % cell.n_sectors(), point);
+    for (int point = 0; point < cell.n_points(); ++point) {
+      double* to = result.column(point);
+      for (py::ssize_t position = 0; position < at.shape(0); ++position)
+        for (py::ssize_t sector = 0; sector < at.shape(1); ++sector) *to++ = at(position, sector, point);
+    }
     return result;
   }
 
@@ -154,10 +156,13 @@ class OwnDensity : public MaterialDensity<dim> {
     Matrix result = Matrix::unfilled(cell.n_cases(), n_strains<dim> * cell.n_points());
     const auto at = slopes.template unchecked<4>();
     for (int point = 0; point < cell.n_points(); ++point)
-      for (int k = 0; k < n_strains<dim>; ++k)
-        for (int j = 0; j < cell.n_cases(); ++j)
-          result(j, n_strains<dim> * point + k) =
-              factors[j] * at(j / cell.n_sectors(), j % cell.n_sectors(), point, k);
+      for (int k = 0; k < n_strains<dim>; ++k) {
+        double* to = result.column(n_strains<dim> * point + k);
+        const double* factor = factors.data();
+        for (py::ssize_t position = 0; position < at.shape(0); ++position)
+          for (py::ssize_t sector = 0; sector < at.shape(1); ++sector)
+            *to++ = *factor++ * at(position, sector, point, k);
+      }
     return result;
   }
 
