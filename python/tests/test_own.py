@@ -1,4 +1,7 @@
 import gc
+import signal
+import subprocess
+import sys
 import tempfile
 import unittest
 import weakref
@@ -122,6 +125,30 @@ class Values(unittest.TestCase):
         self.assertEqual((positions(PressureSquared()), positions(symmetric)), (4, 3))
 
 
+    def test_of_symmetric_wheels_are_those_of_all_positions(self):
+        for kind in (EnergyVariance, PressureSquared, FourthPower):
+            evaluations = []
+            for promise in (False, True):
+                functional = kind()
+                functional.symmetric_in_azimuth = promise
+                case = small([functional]).replace({"load.positions": 6}).bound(kind.name, at_most=1e15)
+                evaluations.append(ww.Study(case).evaluate()[kind.name])
+            all_positions, representatives = evaluations
+            self.assertAlmostEqual(all_positions.value / representatives.value, 1, places=8)
+            a, b = (one.nodal_gradient for one in evaluations)
+            np.testing.assert_allclose(a, b, atol=1e-5 * np.abs(a).max())
+
+    def test_of_symmetric_widths_are_those_of_the_whole_width(self):
+        values = []
+        for promise in (False, True):
+            functional = PressureSquared()
+            functional.symmetric_across_width = promise
+            case = small([functional]).replace({"wheel.dimension": 3, "grid.axial_cells": 2})
+            evaluated = ww.Study(case.bound(functional.name, at_most=1e15)).evaluate()[functional.name]
+            values.append((evaluated.value, np.abs(evaluated.nodal_gradient).sum()))
+        np.testing.assert_allclose(values[0], values[1], rtol=1e-6)
+
+
 class Mistakes(unittest.TestCase):
     def evaluate(self, functional):
         return ww.Study(small([functional]).bound(functional.name, at_most=1e15)).evaluate()
@@ -222,6 +249,35 @@ class Runs(unittest.TestCase):
             self.assertIn("fourth_power", result.summary["bounds"][0]["name"])
             with self.assertRaises(ww.CaseError):
                 ww.Run.resume(folder / "stopped")
+
+    def test_are_killed_and_resumed(self):
+        code = (
+            "import os, signal, sys\n"
+            "import wheelwright as ww\n"
+            "from test_own import killed_case\n"
+            "def kill(p):\n"
+            "    if p.iteration == 3: os.kill(os.getpid(), signal.SIGKILL)\n"
+            "ww.Run(killed_case(), sys.argv[1]).execute(on_shape=kill)\n"
+        )
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            ww.Run(killed_case(), folder / "straight").execute()
+            killed = subprocess.run(
+                [sys.executable, "-c", code, str(folder / "killed")], cwd=Path(__file__).parent, timeout=60
+            )
+            self.assertEqual(killed.returncode, -signal.SIGKILL)
+            run = ww.Run.resume(folder / "killed", [EnergyVariance()])
+            self.assertIn(run.resumed_after, (2, 3))
+            run.execute()
+            for file in ("shape.levelset", "summary.json"):
+                self.assertEqual(
+                    (folder / "killed" / file).read_bytes(), (folder / "straight" / file).read_bytes()
+                )
+
+
+def killed_case():
+    """Of five shapes, with an own criterion."""
+    return small([EnergyVariance()]).replace({"optimizer.iterations": 5}).minimize({"energy_variance": 1e-2})
 
 
 if __name__ == "__main__":

@@ -166,6 +166,13 @@ class Designs(Folder):
             ww.sweep(case, self.folder / "sweep", {"load.mass": [20]}, quantities=["beauty"])
 
 
+    def test_are_explored(self):
+        case = small().replace({"optimizer.iterations": 1})
+        designs = ww.explore(case, self.folder / "explored", starts=2)
+        self.assertEqual(len(designs["designs"]), 2)
+        self.assertTrue((self.folder / "explored" / "pareto.svg").exists())
+
+
 class Exports(Folder):
     def test_have_the_format_of_the_ending(self):
         study = ww.Study(small())
