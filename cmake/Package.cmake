@@ -1,4 +1,5 @@
-# Debian packages by `cpack`, see scripts/package: the program, its writers of STEP and 3MF, and what a developer needs.
+# Debian packages by `cpack`, see scripts/package: the program, its writers of STEP and 3MF, what a developer needs, and the
+# Python module.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME wheelwright)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -10,11 +11,15 @@ set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program cad development)
+if(WHEELWRIGHT_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "Moves the edges of a wheel's holes until it deforms as little as possible, or rolls as evenly as possible, and\n\
 exports it for CAD and workshop.")
 set(CPACK_COMPONENT_CAD_DESCRIPTION "Lets the command export of wheelwright write STEP, by OpenCASCADE, and 3MF, by lib3mf.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, CMake package and pkg-config file of libwheelwright.")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module wheelwright: everything that libwheelwright does, with numpy.")
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -29,4 +34,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME wheelwright-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "wheelwright (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wheelwright)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "wheelwright (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 include(CPack)

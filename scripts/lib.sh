@@ -20,9 +20,15 @@ test_packages=(
   nodejs
   clang-format shellcheck universal-ctags
 )
-# What makes the site of the documents: its pages, their formulas, the reference of the headers. The tests make it too.
-site_packages=(python3-sphinx python3-myst-parser furo katex fonts-katex doxygen)
+# What makes the site of the documents: its pages, their formulas, the references of the headers and of the Python module. The tests make it too.
+site_packages=(python3-numpy python3-sphinx python3-myst-parser furo katex fonts-katex doxygen)
 test_packages+=("${site_packages[@]}")
+# For the Python module, and what its tests need besides.
+python_packages=(python3-dev python3-numpy pybind11-dev)
+test_packages+=(
+  "${python_packages[@]}" python3-scipy python3-matplotlib python3-distributed mypy
+  python3-pip python3-venv python3-setuptools python3-wheel
+)
 build_folder=build/release
 
 fail() {
@@ -67,8 +73,9 @@ install_packages() {
 }
 
 # Configures, which finds libraries that were installed since, and builds the targets in Release. What is up to date is
-# not built again.
+# not built again. `configuration`: options for cmake.
+configuration=()
 build() {
-  cmake --preset release
+  cmake --preset release "${configuration[@]}"
   cmake --build --preset release --target "$@"
 }

@@ -33,6 +33,38 @@ TEST(CheckpointFormat, RoundTripIsExactIn2DAnd3D) {
   EXPECT_EQ(round_trip<3>(solid), solid);
 }
 
+template <int dim>
+void expect_parts_come_back() {
+  const auto state = some_checkpoint<dim>().state;
+  const std::string bytes = state_file(state), of_evaluation = evaluation_file(state.evaluation);
+  const auto parsed = parse_state_file<dim>(bytes);
+  ASSERT_TRUE(parsed) << parsed.failure().detail;
+  EXPECT_EQ(state_file(*parsed), bytes);
+  EXPECT_EQ(evaluation_file(parsed->evaluation), of_evaluation);
+  const auto evaluation = parse_evaluation_file<dim>(of_evaluation);
+  ASSERT_TRUE(evaluation) << evaluation.failure().detail;
+  EXPECT_EQ(evaluation_file(*evaluation), of_evaluation);
+}
+
+TEST(CheckpointFormat, StatesAndEvaluationsHaveFilesOfTheirOwn) {
+  expect_parts_come_back<2>();
+  expect_parts_come_back<3>();
+  const auto state = some_checkpoint<2>().state;
+  EXPECT_FALSE(parse_evaluation_file<2>(state_file(state)));
+  auto unequal = state.evaluation;
+  unequal.functions[0].gradient.pop_back();
+  EXPECT_FALSE(parse_evaluation_file<2>(evaluation_file(unequal)));
+}
+
+/// The text stands in the file: the number of an own unit is that of a process.
+TEST(CheckpointFormat, OwnUnitsComeBackByTheirText) {
+  auto evaluation = some_checkpoint<2>().state.evaluation;
+  evaluation.functions[0].unit = own_unit("Pa^2 m");
+  const std::string bytes = evaluation_file(evaluation);
+  EXPECT_NE(bytes.find("Pa^2 m"), std::string::npos);
+  EXPECT_EQ(parse_evaluation_file<2>(bytes)->functions[0].unit, own_unit("Pa^2 m"));
+}
+
 TEST(CheckpointFormat, ContainsTheWholeState) {
   const auto written = some_checkpoint<2>();
   const auto parsed = parse_checkpoint_file<2>(checkpoint_file(written));

@@ -93,7 +93,7 @@ class Docs(unittest.TestCase):
         self.assertGreater(n_names, 100)
 
     def test_identifiers_that_are_named_exist(self):
-        sources = [file for top in ("src", "tests", "scripts", "bench", "cmake", "packaging", "examples", "cases")
+        sources = [file for top in ("src", "tests", "scripts", "bench", "cmake", "packaging", "examples", "cases", "python")
                    for file in Path(top).rglob("*") if file.suffix in SOURCE_ENDINGS or (top == "scripts" and file.is_file())]
         text = " ".join(file.read_text(encoding="utf-8", errors="replace")
                         for file in [*sources, Path("CMakeLists.txt"), Path("CMakePresets.json"), Path("tests/CMakeLists.txt")])

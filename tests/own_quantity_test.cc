@@ -196,6 +196,47 @@ TEST(OwnQuantities, AreTermsOnceAndWithOneWeight) {
   EXPECT_FALSE(is_accepted(term("objective")));
 }
 
+TEST(OwnUnits, AreTheSameForEqualTexts) {
+  const UnitKind a = own_unit("Pa^2 m"), b = own_unit("K/m");
+  EXPECT_EQ(own_unit("Pa^2 m"), a);
+  EXPECT_NE(a, b);
+  EXPECT_STREQ(unit<2>(a), "Pa^2 m");
+  EXPECT_STREQ(shown_unit(b, 3, 0.1).name, "K/m");
+  EXPECT_EQ(shown_unit(a, 2, 0.1).factor, 1);
+  EXPECT_STREQ(own_unit_text(UnitKind::energy), "");
+}
+
+/// A resumed run reads the unit from its checkpoint.
+TEST_F(OwnQuantity, MayHaveAUnitOfItsOwn) {
+  Quantities quantities;
+  QuantityRow row = outer_edges();
+  row.unit = own_unit("edge");
+  quantities.add(row);
+  std::string text = small_case(4, terms);
+  text.replace(text.find("\"900 mm\""), 8, "0.9");
+  const Case c = case_of(text, quantities);
+  {
+    auto run = wheelwright::Run<2>::begin(c, folder() / "run");
+    CommandQueue commands;
+    run->add(std::make_unique<StopAfter>(commands, 2));
+    run->execute(commands);
+  }
+  {
+    auto run = wheelwright::Run<2>::resume(c, folder() / "run");
+    ASSERT_TRUE(run);
+    CommandQueue commands;
+    run->execute(commands);
+  }
+  const auto columns = header("run");
+  for (const char* column :
+       {"outer_edges [edge]", "bounded outer_edges [edge]", "multiplier of outer_edges [J/m per edge]"})
+    EXPECT_TRUE(has(columns, column)) << column;
+  const auto summary = nlohmann::json::parse(file("run", "summary.json"));
+  EXPECT_EQ(summary["bounds"][0]["unit"], "edge");
+  EXPECT_TRUE(summary["after"].contains("outer_edges"));
+  EXPECT_NE(file("run", "report.html").find("\"outer_edges [edge]\""), std::string::npos);
+}
+
 TEST_F(OwnQuantity, IsInHistoryPagesAndCheckpointsWithItsUnit) {
   const Case c = case_of(small_case(4, terms));
   auto board = std::make_shared<Board<2>>();

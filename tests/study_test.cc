@@ -316,6 +316,31 @@ TEST(ObjectiveOfACase, EndsEarlyWhenItIsInterrupted) {
   EXPECT_EQ(evaluated.failure().reason, FailureReason::interrupted);
 }
 
+/// The place where an interrupt ends an evaluation, for each poll that can be the first that asks.
+template <int dim>
+std::vector<std::string> ends_of(const Study<dim>& study) {
+  std::vector<std::string> ends;
+  for (int first = 0;; ++first) {
+    int polls = 0;
+    const Interrupt from_then_on([&] { return polls++ >= first; });
+    const auto evaluated = evaluate_of(study, from_then_on)(study.initial, nullptr);
+    if (evaluated) return ends;
+    EXPECT_EQ(evaluated.failure().reason, FailureReason::interrupted);
+    const bool is_between_phases = evaluated.failure().detail.starts_with("before");
+    EXPECT_TRUE(polls == first + 1 || !is_between_phases) << evaluated.failure().detail;
+    if (ends.empty() || ends.back() != evaluated.failure().detail) ends.push_back(evaluated.failure().detail);
+  }
+}
+
+/// So a stop takes at most one phase.
+TEST(ObjectiveOfACase, CanBeInterruptedBeforeEveryPhase) {
+  const std::vector<std::string> before_phases{"before the phase assembly", "before the phase factorization",
+                                               "before the phase contact",  "while the contact was solved",
+                                               "before the phase recovery", "before the phase adjoint"};
+  const Case c = uneven_case();
+  EXPECT_EQ(ends_of(*make_study<2>(c)), before_phases);
+}
+
 TEST(VolumeFraction, IsOneForTheWholeSector) {
   const auto plane = polar_grid<2>(uneven_case());
   const auto solid = polar_grid<3>(uneven_case());

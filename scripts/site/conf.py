@@ -1,6 +1,7 @@
 """How Sphinx makes the site of the documents, for scripts/build-docs. The pages are the Markdown files of the repository,
 as they are; the groups of the navigation are the paragraphs under "Documentation" in the README."""
 
+import os
 import re
 import shutil
 import sys
@@ -19,7 +20,7 @@ project = "Wheelwright"
 author = "The developers of Wheelwright"
 release = (top / "VERSION").read_text(encoding="utf-8").split()[0]
 
-extensions = ["myst_parser"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 root_doc = "README"
 include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/*.md", "examples/*/README.md"]
 exclude_patterns = [".*", "build*", "runs", "src"]
@@ -29,6 +30,15 @@ myst_heading_anchors = 4
 nitpicky = True
 highlight_language = "none"
 smartquotes = False
+
+# The reference of the Python module is read from its sources, without the extension, which need not be built.
+sys.path.insert(0, str(top / "python"))
+os.environ.setdefault("OPENBLAS_CORETYPE", "Haswell")
+autodoc_mock_imports = ["wheelwright._core", "wheelwright._environment"]
+autodoc_typehints_format = "short"
+autodoc_preserve_defaults = True
+napoleon_numpy_docstring = False
+nitpick_ignore_regex = [("py:.*", r"(?!wheelwright).*"), ("py:.*", r"wheelwright\._core\..*"), ("py:.*", r"wheelwright\..*\.(Event|Designs|Value|Array|FloatArray|IntArray)")]
 
 html_theme = "furo"
 html_title = f"Wheelwright {release}"

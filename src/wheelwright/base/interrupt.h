@@ -1,7 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <utility>
+
+#include "wheelwright/base/expected.h"
 
 namespace wheelwright {
 
@@ -23,6 +26,12 @@ class Interrupt {
       : requested_(std::move(requested)), progress_(std::move(progress)) {}
 
   bool requested() const { return requested_ && requested_(); }
+
+  /// Called between the phases of a computation; `next` is the one that follows (base/phase_time.h).
+  std::optional<Failure> before(const char* next) const {
+    if (!requested()) return {};
+    return Failure{FailureReason::interrupted, std::string("before the phase ") + next};
+  }
 
   /// Called before every step of a contact problem.
   void report(const ContactProgress& progress) const {

@@ -4,7 +4,17 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <mutex>
 #include <string_view>
+
+#include "wheelwright/base/fastest_kernels.h"
+
+// Of OpenBLAS; null in a process that has another BLAS.
+extern "C" {
+__attribute__((weak)) void openblas_set_num_threads(int);
+__attribute__((weak)) int openblas_get_num_threads();
+__attribute__((weak)) char* openblas_get_corename();
+}
 
 namespace wheelwright {
 
@@ -18,13 +28,16 @@ bool set(const char* name, std::string_view value) {
   return true;
 }
 
-bool has_avx512() {
-#ifdef __x86_64__
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
-#else
-  return false;
-#endif
+/// The number of those who want one thread, and the number of threads before.
+struct OneThreadWanted {
+  std::mutex mutex;
+  int by = 0;
+  int before = 0;
+};
+
+OneThreadWanted& one_thread_wanted() {
+  static OneThreadWanted wanted;
+  return wanted;
 }
 
 }  // namespace
@@ -47,8 +60,30 @@ void restart_with_blas_settings(char* const* arguments) {
   bool changed = false;
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"})
     changed |= set(name, "1");
-  if (!std::getenv("OPENBLAS_CORETYPE") && has_avx512()) changed |= set("OPENBLAS_CORETYPE", "SkylakeX");
+  if (const char* kernels = fastest_kernels(); kernels && !std::getenv("OPENBLAS_CORETYPE"))
+    changed |= set("OPENBLAS_CORETYPE", kernels);
   if (changed) execv("/proc/self/exe", arguments);
+}
+
+OneBlasThread::OneBlasThread() {
+  if (!openblas_set_num_threads || !openblas_get_num_threads) return;
+  OneThreadWanted& wanted = one_thread_wanted();
+  const std::scoped_lock lock(wanted.mutex);
+  if (wanted.by++ > 0) return;
+  wanted.before = openblas_get_num_threads();
+  if (wanted.before != 1) openblas_set_num_threads(1);
+}
+
+OneBlasThread::~OneBlasThread() {
+  if (!openblas_set_num_threads || !openblas_get_num_threads) return;
+  OneThreadWanted& wanted = one_thread_wanted();
+  const std::scoped_lock lock(wanted.mutex);
+  if (--wanted.by == 0 && wanted.before != 1) openblas_set_num_threads(wanted.before);
+}
+
+BlasSettings blas_settings() {
+  return {openblas_get_corename ? openblas_get_corename() : "",
+          openblas_get_num_threads ? openblas_get_num_threads() : 0};
 }
 
 }  // namespace wheelwright

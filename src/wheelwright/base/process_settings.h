@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace wheelwright {
 
 /// For main(): keeps freed memory in the process, for the matrices of the next shape, which have the same
@@ -24,5 +26,24 @@ void give_freed_memory_back();
 ///
 /// Returns if nothing is to be changed, or if the system cannot start the program again.
 void restart_with_blas_settings(char* const* arguments);
+
+/// For a library in a program of others, which cannot be restarted: BLAS computes with one thread while one
+/// of these exists, and then with as many as before. That is a setting of the whole process: other users of
+/// the same OpenBLAS see it too. Does nothing with another BLAS.
+class OneBlasThread {
+ public:
+  OneBlasThread();
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+};
+
+/// What determines the last digits of results on this machine.
+struct BlasSettings {
+  std::string kernels;  ///< of OpenBLAS, e.g. "SkylakeX"; empty with another BLAS
+  int threads;          ///< 0 with another BLAS
+};
+
+BlasSettings blas_settings();
 
 }  // namespace wheelwright

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <numbers>
+#include <string_view>
 
 namespace wheelwright {
 
-/// Kinds of numbers that are shown to the user, all in SI units.
+/// Kinds of numbers that are shown to the user, all in SI units. Those of own_unit() follow.
 enum class UnitKind {
   energy,
   force,
@@ -22,6 +23,15 @@ enum class UnitKind {
   temperature,  ///< in degrees Celsius
   power
 };
+
+/// The kind of numbers with a unit that no other kind has, such as "Pa^2 m": the same for equal texts. Such
+/// numbers are shown as they are, without a factor, in 2D too.
+UnitKind own_unit(std::string_view text);
+
+constexpr bool is_own(UnitKind kind) { return kind > UnitKind::power; }
+
+/// The text that own_unit() was given; empty for all other kinds.
+const char* own_unit_text(UnitKind kind);
 
 /// The unit of each kind. In 2D, energies, forces, torques, masses and stiffnesses are those of one
 /// metre of width.
@@ -58,7 +68,7 @@ constexpr const char* unit(UnitKind kind) {
     case UnitKind::power:
       return dim == 2 ? "W/m" : "W";
   }
-  return "";
+  return own_unit_text(kind);
 }
 
 constexpr const char* unit(UnitKind kind, int dimension) {
@@ -73,10 +83,11 @@ constexpr double whole_width(int dimension, double width) { return dimension == 
 constexpr bool is_per_width(UnitKind kind) {
   return kind != UnitKind::length && kind != UnitKind::stress && kind != UnitKind::ratio &&
          kind != UnitKind::turns && kind != UnitKind::angle && kind != UnitKind::distance &&
-         kind != UnitKind::temperature;
+         kind != UnitKind::temperature && !is_own(kind);
 }
 
-/// The ending of keys of numbers of this kind on the whole width, e.g. "N_per_m"; empty for ratios.
+/// The ending of keys of numbers of this kind on the whole width, e.g. "N_per_m"; empty for ratios and own
+/// units.
 /// Energies are those of one metre of width in 2D.
 constexpr const char* unit_in_key(UnitKind kind, int dimension) {
   switch (kind) {
@@ -97,7 +108,7 @@ constexpr const char* unit_in_key(UnitKind kind, int dimension) {
     case UnitKind::temperature:
       return "deg_C";
     default:
-      return unit(kind, 3);
+      return is_own(kind) ? "" : unit(kind, 3);
   }
 }
 

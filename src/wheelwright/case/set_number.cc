@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "wheelwright/case/bound_key.h"
+#include "wheelwright/case/key_paths.h"
 #include "wheelwright/case/key_value.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
-#include "wheelwright/case/suggest.h"
 #include "wheelwright/case/unit_text.h"
 
 namespace wheelwright {
@@ -84,22 +84,6 @@ std::optional<std::optional<std::string>> set_in_table(const BoundTableOfQuantit
   return problem;
 }
 
-/// All paths of numbers, for suggestions.
-std::vector<std::string> known_paths(Case& c) {
-  std::vector<std::string> paths;
-  for_each_section_of(c, [&](const auto& section) {
-    for (const auto& key : section.keys) {
-      if constexpr (requires { section.path(); }) {
-        for (std::size_t i = 0; i < section.in(c).size(); ++i)
-          paths.push_back(fmt::format("{}[{}].{}", section.path(), i + 1, key.name));
-      } else if (!section.name.empty()) {
-        paths.push_back(fmt::format("{}.{}", section.name, key.name));
-      }
-    }
-  });
-  return paths;
-}
-
 }  // namespace
 
 std::optional<std::string> set_number(Case& c, const std::string& path, double value,
@@ -119,10 +103,7 @@ std::optional<std::string> set_number(Case& c, const std::string& path, double v
     }
   });
   if (outcome) return *outcome;
-  const auto paths = known_paths(c);
-  const auto near = did_you_mean(path, std::vector<std::string_view>(paths.begin(), paths.end()));
-  return fmt::format("{} is not a key of this case{}", path,
-                     near ? fmt::format("; did you mean {}?", *near) : "");
+  return unknown_key_text(c, path);
 }
 
 }  // namespace wheelwright

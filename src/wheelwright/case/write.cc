@@ -111,10 +111,6 @@ std::string value_text(const OptionalWordField<BoundTable>& field) {
   return word ? in_quotes(*word) : "";
 }
 
-std::string value_text(const BoundKey& key) {
-  return std::visit([](const auto& field) { return value_text(field); }, key.field);
-}
-
 /// The values that a key accepts, in words.
 std::string accepted_text(const BoundKey& key) {
   return std::visit(
@@ -309,6 +305,10 @@ std::string quantities_table() {
 }
 
 }  // namespace
+
+std::string value_text(const BoundKey& key) {
+  return std::visit([](const auto& field) { return value_text(field); }, key.field);
+}
 
 std::string to_toml(const Case& c) {
   std::string result;

@@ -147,7 +147,7 @@ Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
 
 template <int dim>
 Expected<std::shared_ptr<const FactoredShape<dim>>> RollingProblem<dim>::factor(
-    const CutShape<dim>& shape) const {
+    const CutShape<dim>& shape, const Interrupt& interrupt) const {
   std::vector<PhaseTime> phases;
   Stopwatch watch;
   auto domain = shape.domain ? Expected<CutDomain<dim>>(*shape.domain)
@@ -156,8 +156,10 @@ Expected<std::shared_ptr<const FactoredShape<dim>>> RollingProblem<dim>::factor(
   if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
   if (auto failure = cord_in_a_hole(model_.materials, *domain)) return *failure;
   phases.push_back({phase::cut, watch.lap()});
+  if (auto failure = interrupt.before(phase::assembly)) return *failure;
   auto sector = sector_stiffness(*domain, *elements_, core_rows());
   phases.push_back({phase::assembly, watch.lap()});
+  if (auto failure = interrupt.before(phase::factorization)) return *failure;
   auto factored = CyclicStiffness<dim>::factor(
       std::move(sector), [&](int harmonic) { return tread_.outer_stiffness(harmonics_, harmonic); },
       harmonics_);
@@ -170,7 +172,7 @@ Expected<std::shared_ptr<const FactoredShape<dim>>> RollingProblem<dim>::factor(
 template <int dim>
 Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& shape, LoadPositions positions,
                                                           const Interrupt& interrupt) const {
-  auto factored = factor(shape);
+  auto factored = factor(shape, interrupt);
   if (!factored) return factored.failure();
   auto solution = roll(model_, *factored, nullptr, std::move(positions), Ground::touched, interrupt);
   if (!solution) return solution.failure();
@@ -203,6 +205,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
     const RollingModel<dim>& model, std::shared_ptr<const FactoredShape<dim>> shape,
     std::shared_ptr<const SurfaceCompliance<dim>> surface, LoadPositions positions, Ground reach,
     const Interrupt& interrupt) const {
+  if (auto failure = interrupt.before(phase::contact)) return *failure;
   Stopwatch watch;
   Preloaded<dim> preloaded = preload(model, *elements_, tread_, *shape, positions);
   auto rolled = roll_to_all<dim>(model, tread_, shape->ring, std::move(surface), positions,
@@ -212,6 +215,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
     if (auto failure = no_contact(model, rolled->contacts[i], rolled->states[i])) return *failure;
   Matrix on_tread = with_ground(preloaded.tread_loads, *rolled);
   std::vector<PhaseTime> phases{{phase::contact, watch.lap()}};
+  if (auto failure = interrupt.before(phase::recovery)) return *failure;
 
   const TreadLoads loads = tread_loads(tread_, on_tread);
   auto fields = recover(*shape, tread_, positions, preloaded, loads);

@@ -94,7 +94,8 @@ class RollingProblem : public StateSolver<dim> {
   RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
                  Tread<dim> tread);
 
-  Expected<std::shared_ptr<const FactoredShape<dim>>> factor(const CutShape<dim>& shape) const;
+  Expected<std::shared_ptr<const FactoredShape<dim>>> factor(const CutShape<dim>& shape,
+                                                             const Interrupt& interrupt) const;
   /// Whether the wheel must touch the ground at every position.
   enum class Ground { touched, out_of_reach };
   Expected<RollingSolution<dim>> roll(const RollingModel<dim>& model,

@@ -65,9 +65,10 @@ struct ShapeGradients {
 
 /// The states of one shape: the solutions of its contact problems (27) at some load positions. Position i is
 /// solved in the body frame, with the ground turned to it. The field in sector s is also the field in sector
-/// 0 for the load position that lies s sectors back.
+/// 0 for the load position that lies s sectors back. A functional that keeps a state beyond its evaluation
+/// shares its ownership.
 template <int dim>
-class State {
+class State : public std::enable_shared_from_this<State<dim>> {
  public:
   virtual ~State() = default;
 
@@ -143,9 +144,9 @@ class State {
 };
 
 /// Solves the states of shapes: the only interface of a run to the mechanics. Everything independent of the
-/// shape is built once.
+/// shape is built once. Ownership can be shared as that of a State.
 template <int dim>
-class StateSolver {
+class StateSolver : public std::enable_shared_from_this<StateSolver<dim>> {
  public:
   virtual ~StateSolver() = default;
 
@@ -153,7 +154,8 @@ class StateSolver {
   virtual const TreadSurface<dim>& tread_surface() const = 0;
 
   /// The states of a shape at some load positions. Its cells are cut unless it brings them. `interrupt` is
-  /// polled while the contact problems are solved; once it asks, the failure is `interrupted`. Fails when the
+  /// polled between the phases and while the contact problems are solved; once it asks, the failure is
+  /// `interrupted`. Fails when the
   /// shape cannot be computed. The solver must outlive the state.
   virtual Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape,
                                                              LoadPositions positions,

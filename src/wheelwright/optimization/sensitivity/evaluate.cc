@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "wheelwright/base/stopwatch.h"
+#include "wheelwright/mechanics/state/place_in_body.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/quantities/functionals/mean_contact_stress.h"
-#include "wheelwright/shape/geometry/cell_map.h"
 
 namespace wheelwright {
 namespace {
@@ -167,15 +167,6 @@ std::vector<CaseStates<dim>> case_states(const StateSolver<dim>& solver,
   return of_cases;
 }
 
-/// Cartesian, in the body frame [m].
-template <int dim>
-Vec<dim> position_of(const RollingModel<dim>& model, const MaterialPoint<dim>& point) {
-  const auto place = model.grid.cell_position(point.cell);
-  const CellMap<dim> map(model.grid, model.degree, place);
-  return rotated<dim>(map.position(ShapeFunctions<dim>(model.degree, point.xi)),
-                      place[1] * model.grid.column_angle());
-}
-
 /// The functions' derivatives with respect to the states of every load case, as far as they depend on them.
 template <int dim>
 struct ByStates {
@@ -288,6 +279,7 @@ Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
   if (!states) return states.failure();
   std::vector<const State<dim>*> of_cases;
   for (const auto& state : *states) of_cases.push_back(state.get());
+  if (auto failure = interrupt.before(phase::adjoint)) return *failure;
   auto evaluation = differentiate<dim>(solver, cases, functions, shape.psi, of_cases, held_mean);
   if (!evaluation) return evaluation.failure();
   auto first = std::move(states->front());
@@ -304,12 +296,15 @@ Expected<std::vector<std::vector<double>>> topological_derivatives(
   const FunctionalValues<dim> functionals(functions, solver, psi, std::span<const CaseStates<dim>>(of_cases),
                                           nullptr);
   const auto of_states = by_states<dim>(functions, functionals, solver, of_cases, false);
+  const PolarGrid<dim>& grid = solver.model().grid;
   std::vector<std::vector<double>> result(functions.size(), std::vector<double>(points.size(), 0.0));
   for (size_t f = 0; f < functions.size(); ++f)
     for (const auto& [weight, functional, load_case, _] : functions[f].terms)
       for (size_t i = 0; i < points.size(); ++i)
-        result[f][i] += weight * functional->of_small_hole(solver.model().grid,
-                                                           position_of(solver.model(), points[i]), radius);
+        result[f][i] += weight * functional->of_small_hole(grid,
+                                                           cartesian_place<dim>(grid, solver.model().degree,
+                                                                                points[i].cell, points[i].xi),
+                                                           radius);
   for (size_t k = 0; k < states.size(); ++k) {
     const auto derivatives = states[k]->topological_derivatives(of_states.derivatives[k], points);
     if (!derivatives) return derivatives.failure();

@@ -14,29 +14,50 @@ LevelSet<dim> moved(const LevelSet<dim>& psi, std::span<const double> direction,
   return result;
 }
 
+/// abs(grad psi) at a point of the boundary.
+template <int dim>
+double slope_at(const LevelSet<dim>& psi, const SurfacePoint<dim>& point, const ShapeFunctions<dim>& shape,
+                int map_degree) {
+  const PolarGrid<dim>& grid = psi.lattice.grid();
+  const CellMap<dim> map(grid, map_degree, grid.cell_position(point.cell));
+  const Mat<dim> to_physical = inverse<dim>(map.jacobian(ShapeFunctions<dim>(map_degree, point.xi)));
+  const auto values = psi.cell_values(point.cell);
+  Vec<dim> slope{};
+  for (size_t a = 0; a < values.size(); ++a)
+    slope += values[a] * transpose_times<dim>(to_physical, shape.gradient[a]);
+  return norm<dim>(slope);
+}
+
 }  // namespace
 
 template <int dim>
 double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, const LevelSet<dim>& psi,
                               std::span<const double> direction, int map_degree) {
-  const PolarGrid<dim>& grid = psi.lattice.grid();
-  const int degree = psi.lattice.degree();
   const LevelSet<dim> change{psi.lattice, {direction.begin(), direction.end()}};
   double sum = 0;
   for (const SurfaceSample<dim>& sample : gradient) {
-    const ShapeFunctions<dim> shape(degree, sample.xi);
-    const CellMap<dim> map(grid, map_degree, grid.cell_position(sample.cell));
-    const Mat<dim> to_physical = inverse<dim>(map.jacobian(ShapeFunctions<dim>(map_degree, sample.xi)));
-    const auto values = psi.cell_values(sample.cell), changes = change.cell_values(sample.cell);
-    Vec<dim> slope{};
+    const ShapeFunctions<dim> shape(psi.lattice.degree(), sample.xi);
+    const auto changes = change.cell_values(sample.cell);
     double rate = 0;
-    for (size_t a = 0; a < values.size(); ++a) {
-      rate += shape.value[a] * changes[a];
-      slope += values[a] * transpose_times<dim>(to_physical, shape.gradient[a]);
-    }
-    sum -= sample.weight * sample.value * rate / norm<dim>(slope);
+    for (size_t a = 0; a < changes.size(); ++a) rate += shape.value[a] * changes[a];
+    sum -= sample.weight * sample.value * rate / slope_at(psi, sample, shape, map_degree);
   }
   return sum;
+}
+
+template <int dim>
+std::vector<double> nodal_gradient(const std::vector<SurfaceSample<dim>>& gradient, const LevelSet<dim>& psi,
+                                   int map_degree) {
+  const Lattice<dim>& lattice = psi.lattice;
+  std::vector<double> sums(lattice.n_nodes(), 0.0);
+  for (const SurfaceSample<dim>& sample : gradient) {
+    const ShapeFunctions<dim> shape(lattice.degree(), sample.xi);
+    const double rate = sample.weight * sample.value / slope_at(psi, sample, shape, map_degree);
+    const auto cell = lattice.grid().cell_position(sample.cell);
+    for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
+      sums[lattice.node_index(lattice.cell_node(cell, a))] -= rate * shape.value[a];
+  }
+  return sums;
 }
 
 template <int dim>
@@ -100,6 +121,7 @@ Expected<TaylorTest> taylor_test(
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                 \
   template decltype(directional_derivative<dim>) directional_derivative<dim>;                        \
+  template decltype(nodal_gradient<dim>) nodal_gradient<dim>;                                        \
   template decltype(directional_derivatives<dim>) directional_derivatives<dim>;                      \
   template Expected<std::vector<TaylorTest>> taylor_tests(                                           \
       const std::function<Expected<Evaluation<dim>>(double)>&, const Evaluation<dim>&,               \

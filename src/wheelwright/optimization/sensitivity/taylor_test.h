@@ -15,6 +15,12 @@ template <int dim>
 double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, const LevelSet<dim>& psi,
                               std::span<const double> direction, int map_degree);
 
+/// The derivatives with respect to the nodal values of psi, one per node of its lattice: the directional
+/// derivative is their sum, weighted by the direction.
+template <int dim>
+std::vector<double> nodal_gradient(const std::vector<SurfaceSample<dim>>& gradient, const LevelSet<dim>& psi,
+                                   int map_degree);
+
 /// That of every function of an evaluation of psi, in their order, with the parts at edges.
 template <int dim>
 std::vector<double> directional_derivatives(const Evaluation<dim>& start, const LevelSet<dim>& psi,

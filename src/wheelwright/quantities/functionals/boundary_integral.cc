@@ -1,11 +1,11 @@
 #include "wheelwright/quantities/functionals/boundary_integral.h"
 
 #include "wheelwright/mechanics/state/by_radii.h"
+#include "wheelwright/mechanics/state/place_in_body.h"
 #include "wheelwright/shape/geometry/cell_map.h"
 #include "wheelwright/shape/geometry/curvature.h"
 
 namespace wheelwright {
-
 template <int dim>
 FunctionalValue<dim> BoundaryIntegral<dim>::evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                                      const State<dim>& state, const Matrix&) const {
@@ -14,12 +14,13 @@ FunctionalValue<dim> BoundaryIntegral<dim>::evaluate(const StateSolver<dim>& sol
   FunctionalValue<dim> value{.by_radius_of_shape = by_radii<dim>(
                                  solver.model(), state.domain(),
                                  [&](const CutDomain<dim>& domain) { return integral(domain, degree); })};
-  for (const SurfacePoint<dim>& point : state.boundary()) {
-    const auto place = grid.cell_position(point.cell);
-    const CellMap<dim> map(grid, degree, place);
-    const Vec<dim> x =
-        rotated<dim>(map.position(ShapeFunctions<dim>(degree, point.xi)), place[1] * grid.column_angle());
-    const auto [n, gradient] = density(x);
+  std::vector<Vec<dim>> places;
+  for (const SurfacePoint<dim>& point : state.boundary())
+    places.push_back(cartesian_place<dim>(grid, degree, point.cell, point.xi));
+  const auto at_places = densities(places);
+  for (size_t q = 0; q < places.size(); ++q) {
+    const SurfacePoint<dim>& point = state.boundary()[q];
+    const auto& [n, gradient] = at_places[q];
     value.of_shape += point.weight * n;
     value.gradient_of_shape.push_back(mean_curvature<dim>(psi, degree, point.cell, point.xi) * n +
                                       dot<dim>(gradient, point.normal));
@@ -34,13 +35,25 @@ double BoundaryIntegral<dim>::integral(const CutDomain<dim>& domain, int map_deg
   for (const CutCell<dim>& cut : domain.cut) {
     const auto place = domain.grid.cell_position(cut.cell);
     const CellMap<dim> map(domain.grid, map_degree, place);
-    for (const auto& point : cut.boundary) {
+    std::vector<Vec<dim>> places;
+    for (const auto& point : cut.boundary)
+      places.push_back(cartesian_place<dim>(domain.grid, map_degree, cut.cell, point.xi));
+    const auto at_places = densities(places);
+    for (size_t q = 0; q < places.size(); ++q) {
+      const auto& point = cut.boundary[q];
       const ShapeFunctions<dim> shape(map_degree, point.xi);
-      const Vec<dim> x = rotated<dim>(map.position(shape), place[1] * domain.grid.column_angle());
-      sum += point.weight * map_surface<dim>(map.jacobian(shape), point.normal).scale * density(x).value;
+      sum += point.weight * map_surface<dim>(map.jacobian(shape), point.normal).scale * at_places[q].value;
     }
   }
   return sum;
+}
+
+template <int dim>
+std::vector<typename BoundaryIntegral<dim>::Density> BoundaryIntegral<dim>::densities(
+    std::span<const Vec<dim>> points) const {
+  std::vector<Density> result;
+  for (const Vec<dim>& x : points) result.push_back(density(x));
+  return result;
 }
 
 template class BoundaryIntegral<2>;

@@ -16,7 +16,7 @@ class BoundaryIntegral : public Functional<dim> {
   bool is_mirror_symmetric(MirrorPlane) const override { return true; }
   /// A circle has the length 2 / radius per area, a sphere the area 3 / radius per volume.
   double of_small_hole(const PolarGrid<dim>&, const Vec<dim>& x, double radius) const override {
-    return density(x).value * dim / radius;
+    return densities(std::span(&x, 1)).front().value * dim / radius;
   }
 
  protected:
@@ -28,8 +28,9 @@ class BoundaryIntegral : public Functional<dim> {
  private:
   double integral(const CutDomain<dim>& domain, int map_degree) const;
 
-  /// N at a point, Cartesian, in the body frame [m].
-  virtual Density density(const Vec<dim>& x) const = 0;
+  /// N at points, Cartesian, in the body frame [m]. Derived classes implement it, or density().
+  virtual std::vector<Density> densities(std::span<const Vec<dim>> points) const;
+  virtual Density density(const Vec<dim>&) const { return {}; }
 };
 
 }  // namespace wheelwright

@@ -7,8 +7,10 @@
 namespace wheelwright {
 namespace {
 
-constexpr std::string_view file_kind = "CKPT";
+constexpr std::string_view file_kind = "CKPT", state_kind = "STAT", evaluation_kind = "EVAL";
 constexpr std::uint32_t format_version = 10;
+
+constexpr int saved_own_unit = static_cast<int>(UnitKind::power) + 1;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -91,6 +93,17 @@ std::vector<SurfacePoint<dim>> read_points(ByteReader& reader) {
       });
 }
 
+/// An own unit is saved by its text: its number is that of one process.
+void append(UnitKind unit, ByteWriter& writer) {
+  writer.integer(is_own(unit) ? saved_own_unit : static_cast<int>(unit));
+  if (is_own(unit)) writer.text(own_unit_text(unit));
+}
+
+UnitKind read_unit(ByteReader& reader) {
+  const auto unit = reader.integer(0, saved_own_unit, "the unit of a function");
+  return unit == saved_own_unit ? own_unit(reader.text()) : static_cast<UnitKind>(unit);
+}
+
 void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
   append_all(functions, writer, [&](const FunctionValue& one) {
     const auto& [name, value, by_position, gradient, bounds, edge_gradient, unit, by_radius] = one;
@@ -101,7 +114,7 @@ void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
     writer.number(bounds.lower);
     writer.number(bounds.upper);
     writer.numbers(edge_gradient);
-    writer.integer(static_cast<int>(unit));
+    append(unit, writer);
     writer.numbers(by_radius);
   });
 }
@@ -116,8 +129,7 @@ std::vector<FunctionValue> read_functions(ByteReader& reader) {
     bounds.lower = reader.number();
     bounds.upper = reader.number();
     edge_gradient = reader.finite_numbers("the gradient of a function at the edges");
-    unit =
-        static_cast<UnitKind>(reader.integer(0, static_cast<int>(UnitKind::power), "the unit of a function"));
+    unit = read_unit(reader);
     by_radius = reader.finite_numbers("the derivatives of a function with respect to radii");
   });
 }
@@ -239,22 +251,33 @@ void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   writer.integer(static_cast<int>(final_widths));
 }
 
-/// The inconsistency between the parts of a state; empty if they fit.
+template <int dim>
+std::size_t number_of_radii(const Evaluation<dim>& evaluation) {
+  return evaluation.functions.empty() ? 0 : evaluation.functions.front().by_radius.size();
+}
+
+/// The inconsistency between the parts of an evaluation; empty if they fit.
+template <int dim>
+std::string_view misfit(const Evaluation<dim>& evaluation) {
+  for (const FunctionValue& function : evaluation.functions) {
+    if (function.by_radius.size() != number_of_radii(evaluation))
+      return "there is not one derivative of every function with respect to every radius";
+    if (function.gradient.size() != evaluation.boundary.size() ||
+        function.edge_gradient.size() != evaluation.edges.size())
+      return "there is not one value of a gradient for every point of the boundary";
+  }
+  return {};
+}
+
+/// The same of a state.
 template <int dim>
 std::string_view misfit(const OptimizationState<dim>& state) {
   const int n_cells = state.shape.lattice.grid().n_cells();
   for (const auto* points : {&state.evaluation.boundary, &state.evaluation.edges})
     for (const auto& point : *points)
       if (point.cell >= n_cells) return "a point of the boundary lies outside the grid";
-  const size_t n_radii =
-      state.evaluation.functions.empty() ? 0 : state.evaluation.functions.front().by_radius.size();
-  for (const FunctionValue& function : state.evaluation.functions) {
-    if (function.by_radius.size() != n_radii)
-      return "there is not one derivative of every function with respect to every radius";
-    if (function.gradient.size() != state.evaluation.boundary.size() ||
-        function.edge_gradient.size() != state.evaluation.edges.size())
-      return "there is not one value of a gradient for every point of the boundary";
-  }
+  if (const auto problem = misfit(state.evaluation); !problem.empty()) return problem;
+  const size_t n_radii = number_of_radii(state.evaluation);
   const size_t n_nodes = state.shape.values.size();
   for (const CurvaturePair& pair : state.memory.pairs)
     if ((pair.move.size() != n_nodes + n_radii && pair.move.size() != dim * n_nodes + n_radii) ||
@@ -429,9 +452,52 @@ Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view by
   return checkpoint;
 }
 
-template decltype(checkpoint_file<2>) checkpoint_file<2>;
-template decltype(parse_checkpoint_file<2>) parse_checkpoint_file<2>;
-template decltype(checkpoint_file<3>) checkpoint_file<3>;
-template decltype(parse_checkpoint_file<3>) parse_checkpoint_file<3>;
+template <int dim>
+std::string state_file(const OptimizationState<dim>& state) {
+  ByteWriter writer;
+  append(state, writer);
+  return block_file(state_kind, format_version, {{"STAT", writer.bytes()}});
+}
+
+template <int dim>
+Expected<OptimizationState<dim>, FormatError> parse_state_file(std::string_view bytes) {
+  const auto blocks = parse_block_file(bytes, state_kind, format_version, {"STAT"});
+  if (!blocks) return blocks.failure();
+  ByteReader reader(blocks->front());
+  auto state = read_state<dim>(reader);
+  reader.finish();
+  if (!reader.ok()) return FormatError{FormatFault::invalid_value, reader.problem()};
+  return *std::move(state);
+}
+
+template <int dim>
+std::string evaluation_file(const Evaluation<dim>& evaluation) {
+  ByteWriter writer;
+  append(evaluation, writer);
+  return block_file(evaluation_kind, format_version, {{"EVAL", writer.bytes()}});
+}
+
+template <int dim>
+Expected<Evaluation<dim>, FormatError> parse_evaluation_file(std::string_view bytes) {
+  const auto blocks = parse_block_file(bytes, evaluation_kind, format_version, {"EVAL"});
+  if (!blocks) return blocks.failure();
+  ByteReader reader(blocks->front());
+  auto evaluation = read_evaluation<dim>(reader);
+  if (const auto problem = misfit(evaluation); !problem.empty()) reader.fail(problem);
+  reader.finish();
+  if (!reader.ok()) return FormatError{FormatFault::invalid_value, reader.problem()};
+  return evaluation;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                        \
+  template decltype(checkpoint_file<dim>) checkpoint_file<dim>;             \
+  template decltype(parse_checkpoint_file<dim>) parse_checkpoint_file<dim>; \
+  template decltype(state_file<dim>) state_file<dim>;                       \
+  template decltype(parse_state_file<dim>) parse_state_file<dim>;           \
+  template decltype(evaluation_file<dim>) evaluation_file<dim>;             \
+  template decltype(parse_evaluation_file<dim>) parse_evaluation_file<dim>;
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 
 }  // namespace wheelwright

@@ -57,4 +57,14 @@ std::string checkpoint_file(const Checkpoint<dim>& checkpoint);
 template <int dim>
 Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view bytes);
 
+/// The state alone, or an evaluation alone, for programs that keep them or send them to others.
+template <int dim>
+std::string state_file(const OptimizationState<dim>& state);
+template <int dim>
+Expected<OptimizationState<dim>, FormatError> parse_state_file(std::string_view bytes);
+template <int dim>
+std::string evaluation_file(const Evaluation<dim>& evaluation);
+template <int dim>
+Expected<Evaluation<dim>, FormatError> parse_evaluation_file(std::string_view bytes);
+
 }  // namespace wheelwright

@@ -40,7 +40,7 @@ std::vector<double> smooth_field(const Lattice<dim>& lattice, int number) {
 }
 
 template <int dim>
-LevelSet<dim> moved(LevelSet<dim> psi, const std::vector<double>& direction, double t) {
+LevelSet<dim> moved(LevelSet<dim> psi, std::span<const double> direction, double t) {
   for (size_t i = 0; i < direction.size(); ++i) psi.values[i] += t * direction[i];
   return psi;
 }
@@ -241,7 +241,7 @@ std::vector<double> test_direction(const LevelSet<dim>& psi, int number, double 
   for (int pass = 0; pass < most_passes; ++pass) {
     std::set<int> differing;
     for (const double t : {step, -step}) {
-      const auto there = cuts(moved(psi, direction, t));
+      const auto there = cuts(moved<dim>(psi, direction, t));
       if (!there) return std::vector<double>(direction.size(), 0.0);
       differing.merge(differing_cells(*here, *there));
     }
@@ -253,16 +253,25 @@ std::vector<double> test_direction(const LevelSet<dim>& psi, int number, double 
 }
 
 template <int dim>
+LevelSet<dim> generic_shape(LevelSet<dim> psi, std::span<const double> direction, double step) {
+  return moved<dim>(std::move(psi), direction, 2 * step);
+}
+
+template <int dim>
+double largest_test_step(const PolarGrid<dim>& grid) {
+  return largest_step<dim> * grid.resolution();
+}
+
+template <int dim>
 Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>& study, const LevelSet<dim>& shape,
                                                      const Interrupt& interrupt) {
-  const double step = largest_step<dim> * shape.lattice.grid().resolution();
+  const double step = largest_test_step(shape.lattice.grid());
   const auto path_of_number = [&](int number) -> std::optional<TestPath<dim>> {
     const std::vector<double> direction = test_direction(shape, number, 3 * step);
     if (!moves_boundary(shape, direction)) return {};
-    // At the shape itself edges may lie on nodes, and a symmetric wheel is solved only in part.
-    const LevelSet<dim> beside = moved(shape, direction, 2 * step);
+    const LevelSet<dim> beside = generic_shape<dim>(shape, direction, step);
     return TestPath<dim>{
-        [=, &study](double t) { return evaluated(study, moved(beside, direction, t), interrupt); },
+        [=, &study](double t) { return evaluated(study, moved<dim>(beside, direction, t), interrupt); },
         [=, &study](const Evaluation<dim>& start) {
           return directional_derivatives(start, beside, direction, study.model().degree);
         },
@@ -307,9 +316,13 @@ Expected<std::vector<GradientCheck>> check_radii(const Study<dim>& study, const 
 }
 
 template decltype(test_direction<2>) test_direction<2>;
+template decltype(generic_shape<2>) generic_shape<2>;
+template decltype(largest_test_step<2>) largest_test_step<2>;
 template decltype(check_gradients<2>) check_gradients<2>;
 template decltype(check_radii<2>) check_radii<2>;
 template decltype(test_direction<3>) test_direction<3>;
+template decltype(generic_shape<3>) generic_shape<3>;
+template decltype(largest_test_step<3>) largest_test_step<3>;
 template decltype(check_gradients<3>) check_gradients<3>;
 template decltype(check_radii<3>) check_radii<3>;
 

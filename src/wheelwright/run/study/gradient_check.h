@@ -40,6 +40,15 @@ struct GradientCheck {
 template <int dim>
 std::vector<double> test_direction(const LevelSet<dim>& psi, int number, double step);
 
+/// The shape beside a given one at which its gradients are tested: at the shape itself edges may lie on
+/// nodes, and a symmetric wheel is solved only in part. Twice the step away along a direction.
+template <int dim>
+LevelSet<dim> generic_shape(LevelSet<dim> psi, std::span<const double> direction, double step);
+
+/// The largest step of those tests on a grid [m].
+template <int dim>
+double largest_test_step(const PolarGrid<dim>& grid);
+
 /// Tests the gradients of all functions of a study a fraction of a cell away from a shape, with the
 /// quadrature of a run. Steps within which a point of the tread changes its contact status are reduced; a
 /// function that fails is tested along other directions, so that only a wrong gradient fails. Fails as the

@@ -1,0 +1,187 @@
+import os
+import pickle
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import wheelwright as ww
+from wheels import small
+
+
+RING_OF_AIR = """
+[[shape.annulus]]
+inner_radius = 0.24
+outer_radius = 0.29
+as = "hole"
+"""
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+
+class Optimizers(unittest.TestCase):
+    def test_yield_the_shapes_of_a_run(self):
+        study = ww.Study(small())
+        optimizer = ww.Optimizer(study)
+        shapes = list(optimizer)
+        self.assertEqual([p.iteration for p in shapes], [0, 1, 2, 3, 4])
+        self.assertEqual(optimizer.reason, "iterations")
+        self.assertLess(shapes[-1].objective, shapes[0].objective)
+        with tempfile.TemporaryDirectory() as folder:
+            result = ww.Run(small(), Path(folder) / "run").execute()
+            self.assertEqual(result.progress.shape, shapes[-1].shape)
+            self.assertEqual(result.progress.objective, shapes[-1].objective)
+
+    def test_go_on_from_a_pickled_state(self):
+        study = ww.Study(small())
+        shapes = list(ww.Optimizer(study))
+        middle = pickle.loads(pickle.dumps(shapes[2]))
+        rest = list(ww.Optimizer(study, middle))
+        self.assertEqual([p.iteration for p in rest], [3, 4])
+        self.assertEqual(rest[-1].shape, shapes[-1].shape)
+
+    def test_tell_of_their_trials(self):
+        optimizer = ww.Optimizer(ww.Study(small()))
+        next(optimizer)
+        next(optimizer)
+        self.assertEqual(optimizer.trials[-1].verdict, "accepted")
+
+
+class Runs(Folder):
+    def test_call_back(self):
+        shapes, events = [], []
+        run = ww.Run(small(), self.folder / "run")
+        result = run.execute(on_shape=shapes.append, on_event=events.append)
+        self.assertEqual([p.iteration for p in shapes], [0, 1, 2, 3, 4])
+        self.assertEqual(events[0]["event"], "begin")
+        self.assertEqual(result.progress.objective, shapes[-1].objective)
+        self.assertTrue((self.folder / "run" / "report.html").exists())
+        with self.assertRaisesRegex(ww.RunError, "executed"):
+            run.execute()
+
+    def test_obey_commands(self):
+        run = ww.Run(small(), self.folder / "run")
+        run.send("stop")
+        result = run.execute()
+        self.assertEqual((result.reason, result.progress.iteration), ("stop_requested", 0))
+        self.assertEqual(ww.Run.resume(self.folder / "run").execute().progress.iteration, 4)
+        with self.assertRaises(ValueError):
+            ww.Run(small(), self.folder / "other").send("no such command")
+
+    def test_refuse_folders(self):
+        run = ww.Run(small(), self.folder / "run")
+        with self.assertRaises(ww.RunError) as caught:
+            ww.Run(small(), self.folder / "run")
+        self.assertEqual(caught.exception.reason, "folder_in_use")
+        run.execute()
+        for begin, reason in (
+            (lambda: ww.Run(small(), self.folder / "run"), "folder_holds_a_run"),
+            (lambda: ww.Run.resume(self.folder / "run"), "already_finished"),
+        ):
+            with self.assertRaises(ww.RunError) as caught:
+                begin()
+            self.assertEqual(caught.exception.reason, reason)
+
+    def test_exceptions_in_callbacks_arrive_unchanged(self):
+        """The run is saved, and its folder is free."""
+        error = ArithmeticError("own")
+
+        def broken(progress):
+            if progress.iteration == 1:
+                raise error
+
+        with self.assertRaises(ArithmeticError) as caught:
+            ww.Run(small(), self.folder / "run").execute(on_shape=broken)
+        self.assertIs(caught.exception, error)
+        run = ww.Run.resume(self.folder / "run")
+        self.assertEqual(run.resumed_after, 1)
+        self.assertEqual(run.execute().progress.iteration, 4)
+
+    def test_failed_start_says_why(self):
+        start = small().text.index("[[holes.ring]]"), small().text.index("[grid]")
+        text = small().text[: start[0]] + RING_OF_AIR + small().text[start[1] :]
+        result = ww.Run(ww.Case.parse(text), self.folder / "run").execute()
+        self.assertEqual((result.reason, result.progress), ("failed_start", None))
+        self.assertIn("tread_cut_off", result.failure)
+
+    def test_ctrl_c_saves_first(self):
+        code = (
+            "import os, signal, sys\n"
+            "import wheelwright as ww\n"
+            "from wheels import small\n"
+            "case = small().replace({'optimizer.iterations': 400})\n"
+            "def interrupt(p):\n"
+            "    if p.iteration == 3: os.kill(os.getpid(), signal.SIGINT)\n"
+            "try: ww.Run(case, sys.argv[1]).execute(on_shape=interrupt)\n"
+            "except KeyboardInterrupt: print('interrupted')\n"
+            "print(ww.Run.resume(sys.argv[1], case=case).resumed_after)\n"
+        )
+        where = str(self.folder / "run")
+        done = subprocess.run(
+            [sys.executable, "-c", code, where],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            cwd=Path(__file__).parent,
+        )
+        self.assertEqual(done.stdout.split(), ["interrupted", "3"], done.stderr)
+
+
+@unittest.skipUnless("WHEELWRIGHT_PROGRAM" in os.environ, "needs the program")
+class TheProgram(Folder):
+    def test_writes_the_same_bytes(self):
+        """With the kernels of OpenBLAS that the program chooses, which numpy has not loaded before."""
+        (self.folder / "case.toml").write_text(small().text)
+        code = "import wheelwright as ww; ww.Run(ww.Case('case.toml'), 'module').execute()"
+        for command in (
+            [os.environ["WHEELWRIGHT_PROGRAM"], "run", "case.toml", "--output", "program"],
+            [sys.executable, "-c", code],
+        ):
+            subprocess.run(command, cwd=self.folder, check=True, capture_output=True, timeout=120)
+        program, module = ({*names(self.folder / name)} for name in ("program", "module"))
+        self.assertEqual(program, module)
+        for name in ("shape.levelset", "summary.json", "shape.svg", "case.toml"):
+            there, here = (self.folder / which / name for which in ("program", "module"))
+            self.assertEqual(there.read_bytes(), here.read_bytes(), name)
+
+
+def names(folder):
+    """Of the files of a run, without checkpoints."""
+    return (str(file.relative_to(folder)) for file in folder.rglob("*") if "checkpoints" not in file.parts)
+
+
+class Designs(Folder):
+    def test_are_swept(self):
+        case = small().replace({"optimizer.iterations": 1})
+        designs = ww.sweep(case, self.folder / "sweep", {"holes.ring[1].radius": [0.02, 0.03]})
+        self.assertEqual(len(designs["designs"]), 2)
+        self.assertTrue((self.folder / "sweep" / "sweep.html").exists())
+        with self.assertRaisesRegex(ValueError, "stiffness"):
+            ww.sweep(case, self.folder / "sweep", {"load.mass": [20]}, quantities=["beauty"])
+
+
+    def test_are_explored(self):
+        case = small().replace({"optimizer.iterations": 1})
+        designs = ww.explore(case, self.folder / "explored", starts=2)
+        self.assertEqual(len(designs["designs"]), 2)
+        self.assertTrue((self.folder / "explored" / "pareto.svg").exists())
+
+
+class Exports(Folder):
+    def test_have_the_format_of_the_ending(self):
+        study = ww.Study(small())
+        for ending in ("dxf", "svg", "stl"):
+            study.export(self.folder / f"wheel.{ending}")
+            self.assertGreater((self.folder / f"wheel.{ending}").stat().st_size, 1000)
+        with self.assertRaisesRegex(ValueError, "dxf"):
+            study.export(self.folder / "wheel.txt")
+
+
+if __name__ == "__main__":
+    unittest.main()
