@@ -317,8 +317,8 @@ TEST(HyperelasticLaw, IsTheDerivativeOfItsEnergyByGreensStrain) {
 
 TEST(HyperelasticLaw, IsHookesLawForSmallStrains) {
   for (const Plane plane : {Plane::strain, Plane::stress})
-    for (const EnergyForm form : {EnergyForm::neo_hookean, EnergyForm::saint_venant_kirchhoff,
-                                  EnergyForm::mooney_rivlin}) {
+    for (const EnergyForm form :
+         {EnergyForm::neo_hookean, EnergyForm::saint_venant_kirchhoff, EnergyForm::mooney_rivlin}) {
       const Material material{modulus, 0.4, plane};
       const HyperelasticLaw<2> law(material, form, 0.5);
       const IsotropicLaw<2> hooke(material);

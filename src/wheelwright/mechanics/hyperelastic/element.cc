@@ -213,8 +213,7 @@ auto HyperelasticElement<dim>::points(std::span<const ReferencePoint<dim>> mater
   DilatationMoments<dim> moments(dim + 1);
   for (const Point& point : result.points)
     for (int a = 0; a <= dim; ++a)
-      for (int b = 0; b <= dim; ++b)
-        moments.mass(a, b) += point.weight * point.linear[a] * point.linear[b];
+      for (int b = 0; b <= dim; ++b) moments.mass(a, b) += point.weight * point.linear[a] * point.linear[b];
   for (int a = 0; a <= dim; ++a) moments.of_dofs(a, a) = 1;
   result.inverse_mass = moments.coefficients();
   return result;
@@ -241,8 +240,7 @@ void HyperelasticElement<dim>::add_to_dofs(const Nodal& forces, double* dofs) co
 
 template <int dim>
 Mat<dim> HyperelasticElement<dim>::deformation(const Point& point, const Nodal& u) const {
-  return with_nodes<dim>(linear_.degree(),
-                         [&](auto n) { return deformation_gradient<dim, n>(point, u); });
+  return with_nodes<dim>(linear_.degree(), [&](auto n) { return deformation_gradient<dim, n>(point, u); });
 }
 
 template <int dim>
@@ -397,8 +395,8 @@ Matrix gradient_ghost_stiffness(const ElasticElement<dim>& minus, const ElasticE
   return k;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)        \
-  template class HyperelasticElement<dim>;  \
+#define WHEELWRIGHT_INSTANTIATE(dim)       \
+  template class HyperelasticElement<dim>; \
   template decltype(gradient_ghost_stiffness<dim>) gradient_ghost_stiffness<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

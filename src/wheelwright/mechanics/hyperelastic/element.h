@@ -27,8 +27,7 @@ class HyperelasticElement {
 
   /// `small_strains`: the constants of Hooke's law for small strains.
   HyperelasticElement(const PolarGrid<dim>& grid, int degree, int row, const StoredEnergy& energy,
-                      const Material& small_strains,
-                      DilatationKind dilatation = DilatationKind::automatic);
+                      const Material& small_strains, DilatationKind dilatation = DilatationKind::automatic);
 
   int n_nodes() const { return linear_.n_nodes(); }
   int n_dofs() const { return linear_.n_dofs(); }
@@ -40,11 +39,11 @@ class HyperelasticElement {
 
   /// A point of a cell, with all that does not depend on the displacement.
   struct Point {
-    double weight;        ///< dx of a quadrature point [m^2, or m^3 when dim = 3]; 0: none
-    Vec<dim> position;    ///< x
+    double weight;      ///< dx of a quadrature point [m^2, or m^3 when dim = 3]; 0: none
+    Vec<dim> position;  ///< x
     std::array<std::array<double, max_nodes>, dim> gradient;  ///< dN_a / dx_j: [j][a] [1/m]
     std::array<double, max_nodes> value;                      ///< N_a
-    std::array<double, dim + 1> linear;  ///< ElasticElement::linear_functions()
+    std::array<double, dim + 1> linear;                       ///< ElasticElement::linear_functions()
   };
   Point at(const Vec<dim>& xi, double reference_weight = 0) const;
 
@@ -112,10 +111,10 @@ class HyperelasticElement {
   std::array<Mat<dim>, max_nodes> frames_;  ///< polar to Cartesian components at each node
 };
 
-/// The ghost penalty of one face F for large deformation on the dofs (minus cell, plus cell): 1/2 int_F xi h_F
-/// E [[du/dn]].[[du/dn]], and for GhostPenaltyKind::full also 1/2 int_F xi h_F^3 E [[d_mm u]].[[d_mm u]], as
-/// ghost_stiffness() with the derivative of u in place of the traction: a superposed rotation of the deformed
-/// wheel does not change it. `modulus`: E [Pa].
+/// The ghost penalty of one face F for large deformation on the dofs (minus cell, plus cell): 1/2 int_F xi
+/// h_F E [[du/dn]].[[du/dn]], and for GhostPenaltyKind::full also 1/2 int_F xi h_F^3 E [[d_mm u]].[[d_mm u]],
+/// as ghost_stiffness() with the derivative of u in place of the traction: a superposed rotation of the
+/// deformed wheel does not change it. `modulus`: E [Pa].
 template <int dim>
 Matrix gradient_ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                                 double angle, double modulus, const GhostPenalty& ghost);

@@ -126,13 +126,13 @@ void HyperelasticLaw<dim>::tangent(const StrainRows<dim>& strains, const Tangent
 template <int dim>
 void HyperelasticLaw<dim>::energy_density(const StrainRows<dim>& strains, std::span<double> densities) const {
   std::ranges::fill(densities, std::numeric_limits<double>::infinity());
-  visit_deformations<dim>(energy_, strains, [&](size_t point, const Mat<dim>&, const auto& r) {
-    densities[point] = r.energy;
-  });
+  visit_deformations<dim>(energy_, strains,
+                          [&](size_t point, const Mat<dim>&, const auto& r) { densities[point] = r.energy; });
 }
 
 template <int dim>
-void HyperelasticLaw<dim>::squared_von_mises(const StrainRows<dim>& strains, std::span<double> squares) const {
+void HyperelasticLaw<dim>::squared_von_mises(const StrainRows<dim>& strains,
+                                             std::span<double> squares) const {
   std::ranges::fill(squares, 0.0);
   visit_deformations<dim>(energy_, strains, [&](size_t point, const Mat<dim>& f, const auto& r) {
     squares[point] = TrueStress<dim>(r, f).squared_von_mises();

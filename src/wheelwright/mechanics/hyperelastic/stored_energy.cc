@@ -137,7 +137,8 @@ EnergyResponse<dim> invariant_response(const StoredEnergy& energy, const Mat<dim
   const bool is_free = dim == 2 && energy.plane == Plane::stress;
   EnergyResponse<dim> r{};
   r.axial_stretch = is_free ? free_stretch(w, trace, std::log(j)) : 1;
-  const double across = dim == 2 ? r.axial_stretch * r.axial_stretch : 0, log_j = std::log(j * r.axial_stretch);
+  const double across = dim == 2 ? r.axial_stretch * r.axial_stretch : 0,
+               log_j = std::log(j * r.axial_stretch);
   const double first = trace + across, volumetric = w.b * log_j - w.a + pressure;
   r.energy = w.c1 * (first - 3) - w.a * log_j + 0.5 * w.b * log_j * log_j;
   for (int i = 0; i < dim; ++i)

@@ -10,8 +10,8 @@ namespace wheelwright {
 /// The form of a stored energy W(F). All have Hooke's law as their limit for small strains. C = F^T F, E =
 /// (C - I)/2, J = det F.
 enum class EnergyForm {
-  neo_hookean,            ///< mu/2 (tr C - 3 - 2 ln J) + lambda/2 (ln J)^2
-  saint_venant_kirchhoff, ///< mu E:E + lambda/2 (tr E)^2: for small strains and large rotations
+  neo_hookean,             ///< mu/2 (tr C - 3 - 2 ln J) + lambda/2 (ln J)^2
+  saint_venant_kirchhoff,  ///< mu E:E + lambda/2 (tr E)^2: for small strains and large rotations
   /// c1 (I_1 - 3) + c2 (I_2 - 3) - (2 c1 + 4 c2) ln J + (lambda - 4 c2)/2 (ln J)^2, with mu = 2 (c1 + c2)
   mooney_rivlin,
   small_strain,  ///< mu e:e + lambda/2 (tr e)^2 with e = sym(F) - I: Hooke's law, for small rotations alone
@@ -21,9 +21,9 @@ enum class EnergyForm {
 /// stress; only the functions below know which.
 struct StoredEnergy {
   EnergyForm form = EnergyForm::neo_hookean;
-  double mu, lambda;           ///< Lame's parameters in three dimensions [Pa]
+  double mu, lambda;  ///< Lame's parameters in three dimensions [Pa]
   Plane plane = Plane::strain;
-  double second_share = 0;     ///< c2 / (c1 + c2) of Mooney and Rivlin's form, from 0 to 1
+  double second_share = 0;  ///< c2 / (c1 + c2) of Mooney and Rivlin's form, from 0 to 1
 
   /// With the constants of Hooke's law.
   static StoredEnergy of(const Material& material, EnergyForm form = EnergyForm::neo_hookean,
@@ -59,8 +59,8 @@ struct EnergyResponse {
 
 /// W, P and dP/dF. In plane stress the stretch across the plane is the one for which P_33 = 0.
 ///
-/// `pressure`: adds pressure * ln J to W in P and its tangent, but not in the energy itself: the part of lambda
-/// that works on a projection of ln J [Pa].
+/// `pressure`: adds pressure * ln J to W in P and its tangent, but not in the energy itself: the part of
+/// lambda that works on a projection of ln J [Pa].
 template <int dim>
 EnergyResponse<dim> response(const StoredEnergy& energy, const Mat<dim>& f, double pressure = 0);
 
