@@ -249,6 +249,22 @@ auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<Eq
   return *std::move(last);
 }
 
+template <int dim>
+auto EquilibriumSolver<dim>::linearized(const RingEquilibrium<dim>& solution, const Interrupt& interrupt) const
+    -> Result {
+  auto linearization = linearize(solution.v, solution.ground, solution.state.zone.n_columns / 2);
+  if (!linearization) return EquilibriumFailure{linearization.failure()};
+  auto last = correction(**linearization, (**linearization).forces(), solution.v, rim_control(model_),
+                         solution.state, interrupt);
+  if (!last) return EquilibriumFailure{last.failure()};
+  RingEquilibrium<dim> result = solution;
+  result.v = sum(std::move(result.v), 1, last->step);
+  result.contact = std::move(last->contact);
+  result.state = std::move(last->state);
+  result.linearization = *std::move(linearization);
+  return result;
+}
+
 template class EquilibriumSolver<2>;
 
 }  // namespace wheelwright

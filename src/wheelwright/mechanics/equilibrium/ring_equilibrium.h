@@ -66,9 +66,12 @@ class EquilibriumSolver {
                                                                  const EquilibriumStart<dim>& start,
                                                                  const Interrupt& interrupt = {}) const;
 
+  /// A solution with a linearization at its displacement, which may have come from an older one.
+  Expected<RingEquilibrium<dim>, EquilibriumFailure> linearized(const RingEquilibrium<dim>& solution,
+                                                                const Interrupt& interrupt = {}) const;
+
  private:
   using Result = Expected<RingEquilibrium<dim>, EquilibriumFailure>;
-  struct Linearized;
   struct Correction;
 
   /// Columns to either side of the ground for a travel.
