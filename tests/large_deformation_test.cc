@@ -38,8 +38,8 @@ LevelSet<2> lopsided_holes(const PolarGrid<2>& grid) {
 
 double force(const ContactPatch<2>& patch) { return patch.rim_force.towards_ground; }
 
-/// In the limit of small loads, with a difference of at least order 1/2 with contact. Without contact it is of
-/// order 1: StoredEnergy.IsHookesLawForSmallStrains and HyperelasticElement.IsTheLinearElement...
+/// In the limit of small loads, with a difference of at least order 1/2 with contact. Without contact it is
+/// of order 1: StoredEnergy.IsHookesLawForSmallStrains and HyperelasticElement.IsTheLinearElement...
 TEST(LargeDeformation, TendsToTheLinearWheelWithTheLoad) {
   for (const double ratio : {0.3, 0.48}) {
     auto model = soft_wheel(200e6, ratio);
@@ -81,8 +81,7 @@ TEST(LargeDeformation, IsThatOfAnIndependentWheel) {
     const auto problem = LargeDeformationProblem<2>::create(model);
     const auto state = testing::all_states(*problem, psi);
     ASSERT_TRUE(state) << state.failure().detail;
-    EXPECT_NEAR(force((*state)->contacts()[0]) /
-                    reference.force(testing::Theory::large_deformation, travel),
+    EXPECT_NEAR(force((*state)->contacts()[0]) / reference.force(testing::Theory::large_deformation, travel),
                 1, 0.01);
   }
 }
@@ -167,18 +166,15 @@ class StressPower : public MaterialDensityIntegral<2> {
   }
 };
 
-/// The Taylor tests of functions of a model.
-void expect_second_order(const RollingModel<2>& model, std::vector<ShapeFunction<2>> functions) {
+/// The Taylor tests of functions of a model: of energy, stresses and what the rim does.
+void expect_second_order(const RollingModel<2>& model) {
   const auto problem = LargeDeformationProblem<2>::create(model);
   ASSERT_TRUE(problem) << problem.failure().detail;
-  for (const char* name : {"travel", "radial_force", "peak_pressure", "peak_von_mises"}) {
-    if (name == std::string("travel") && model.travel) continue;
-    if (name == std::string("radial_force") && !model.travel) continue;
-    const auto functional = functional_of<2>(built_in(name), Over::mean, {*problem});
-    ASSERT_TRUE(functional) << functional.failure().detail;
-    functions.push_back({name, {*functional}});
-  }
-  const auto psi = lopsided_holes(model.grid);
+  std::vector<ShapeFunction<2>> functions{{"energy", {{1, std::make_shared<StrainEnergy<2>>()}}},
+                                          {"stress", {{1, std::make_shared<StressPower>()}}}};
+  const char* of_rim = model.travel ? "radial_force" : "travel";
+  functions.push_back({of_rim, {*functional_of<2>(built_in(of_rim), Over::mean, {*problem})}});
+  const auto psi = testing::generic_hole(model.grid);
   const auto evaluated = [&](const LevelSet<2>& shape) -> Expected<Evaluation<2>> {
     auto result = evaluate<2>(*problem, functions, shape);
     if (!result) return result.failure();
@@ -186,17 +182,12 @@ void expect_second_order(const RollingModel<2>& model, std::vector<ShapeFunction
   };
   const auto start = evaluated(psi);
   ASSERT_TRUE(start) << start.failure().detail;
-  const auto tests = taylor_tests<2>(evaluated, *start, psi, testing::smooth_direction(psi.lattice),
-                                     model.degree, 2e-5, 3);
+  const auto tests =
+      taylor_tests<2>(evaluated, *start, psi, testing::smooth_direction(psi.lattice), model.degree, 4e-5, 2);
   ASSERT_TRUE(tests) << tests.failure().detail;
   for (size_t f = 0; f < functions.size(); ++f)
     for (const double order : (*tests)[f].orders)
       EXPECT_GT(order, 1.9) << functions[f].name << " = " << (*tests)[f].value;
-}
-
-std::vector<ShapeFunction<2>> energy_and_stress() {
-  return {{"energy", {{1, std::make_shared<StrainEnergy<2>>()}}},
-          {"stress", {{1, std::make_shared<StressPower>()}}}};
 }
 
 TEST(LargeDeformation, ShapeGradientsPassTheTaylorTestAtLargeTravels) {
@@ -204,16 +195,19 @@ TEST(LargeDeformation, ShapeGradientsPassTheTaylorTestAtLargeTravels) {
   for (const double ratio : {0.3, 0.48})
     for (const double travel : {0.02 * thickness, 0.1 * thickness}) {
       auto model = soft_wheel(8e6, ratio);
+      model.n_positions = 1;
+      model.cut_points = 6;
       model.contact.friction = 0.4;
       model.travel = travel;
-      expect_second_order(model, energy_and_stress());
+      expect_second_order(model);
     }
 }
 
 TEST(LargeDeformation, ShapeGradientsPassTheTaylorTestUnderALoad) {
   auto model = soft_wheel(8e6);
-  model.contact.friction = 0.3;
-  expect_second_order(model, energy_and_stress());
+  model.cut_points = 6;
+  model.contact.friction = 0.4;
+  expect_second_order(model);
 }
 
 TEST(LargeDeformation, RefusesWhatItDoesNotKnow) {

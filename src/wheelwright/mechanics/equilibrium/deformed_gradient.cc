@@ -74,7 +74,8 @@ void add_material_loads(const LargeDeformation<dim>& solution, const Displacemen
         Voigt<dim> slope;
         for (int k = 0; k < n_strains<dim>; ++k) slope[k] = sums[q](j, k);
         const auto& point = of_cell.points[q];
-        element.add_work(point, by_deformation<dim>(element.stored_energy(), element.deformation(point, u), slope),
+        element.add_work(point,
+                         by_deformation<dim>(element.stored_energy(), element.deformation(point, u), slope),
                          -point.weight, of_dofs.data());
       }
       std::vector<double> of_ring(loads[position].columns(), 0.0);
@@ -200,8 +201,7 @@ ShapeGradients shape_gradients(const LargeDeformation<dim>& solution, const Disp
           forms.space().gather(boundary.cell, sector, adjoints[f][i].p.data(), p.data());
           const double energy = functions[f].energy.empty() ? 0 : functions[f].energy[i];
           for (size_t q = 0; q < points.size(); ++q)
-            densities[f][q] +=
-                solution.positions.multiplicities[i] * density.at(points[q], energy, p.data());
+            densities[f][q] += solution.positions.multiplicities[i] * density.at(points[q], energy, p.data());
         }
       }
     std::optional<Matrix> strains;
@@ -210,11 +210,11 @@ ShapeGradients shape_gradients(const LargeDeformation<dim>& solution, const Disp
       if (integrals.empty()) continue;
       if (!strains) strains = by_load_case(displacement.strains(boundary.cell, xi));
       for (size_t q = 0; q < points.size(); ++q)
-        densities[f][q] += integrand<dim>(
-            solution.positions,
-            {strain_columns<dim>(*strains, n_strains<dim> * static_cast<int>(q)), grid.n_sectors,
-             solution.model.materials.in_row(grid, place[0]), place, xi[q]},
-            integrals);
+        densities[f][q] +=
+            integrand<dim>(solution.positions,
+                           {strain_columns<dim>(*strains, n_strains<dim> * static_cast<int>(q)),
+                            grid.n_sectors, solution.model.materials.in_row(grid, place[0]), place, xi[q]},
+                           integrals);
     }
     return densities;
   };

@@ -12,9 +12,9 @@ struct DeformedAdjoint {
   double by_travel = 0;  ///< the function's derivative with respect to a prescribed travel
 };
 
-/// The adjoint problems of several functions, [function][position]: K p + S^T m = -dJ/dv with the tangent K of
-/// ring and ghost penalty at the solution and the transposed tangent of the contact. `displacement`: that of
-/// the solution.
+/// The adjoint problems of several functions, [function][position]: K p + S^T m = -dJ/dv with the tangent K
+/// of ring and ghost penalty at the solution and the transposed tangent of the contact. `displacement`: that
+/// of the solution.
 template <int dim>
 Expected<std::vector<std::vector<DeformedAdjoint<dim>>>> solve_adjoints(
     const LargeDeformationProblem<dim>& problem, const LargeDeformation<dim>& solution,

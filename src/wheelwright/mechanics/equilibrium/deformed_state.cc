@@ -75,11 +75,12 @@ class DeformedDisplacement : public Displacement<dim> {
           const auto [a, b] = indices[k];
           double product = 0;
           for (int i = 0; i < dim; ++i) product += f[i][a] * f[i][b];
-          to[k] = is_small ? (a == b ? f[a][a] - 1 : f[a][b] + f[b][a]) : (a == b ? 0.5 * (product - 1) : product);
+          to[k] = is_small ? (a == b ? f[a][a] - 1 : f[a][b] + f[b][a])
+                           : (a == b ? 0.5 * (product - 1) : product);
         }
         if (n_rows > n_strains<dim>)
-          to[n_strains<dim>] = is_small ? 0.5 * (f[1][0] - f[0][1])
-                                        : std::atan2(f[1][0] - f[0][1], f[0][0] + f[1][1]);
+          to[n_strains<dim>] =
+              is_small ? 0.5 * (f[1][0] - f[0][1]) : std::atan2(f[1][0] - f[0][1], f[0][0] + f[1][1]);
         to += n_rows;
       }
     }
@@ -96,7 +97,8 @@ class DeformedState : public State<dim> {
       : problem_(problem),
         solution_(std::move(solution)),
         displacement_(solution_),
-        boundary_(moving_boundary_points(solution_.ring->domain, solution_.model.degree, solution_.positions)) {
+        boundary_(
+            moving_boundary_points(solution_.ring->domain, solution_.model.degree, solution_.positions)) {
     const int n_columns = solution_.model.grid.ring_columns();
     observations_ = Matrix(solution_.ring->tread.rows().size(), solution_.positions.size() * n_columns);
     for (int i = 0; i < solution_.positions.size(); ++i) {

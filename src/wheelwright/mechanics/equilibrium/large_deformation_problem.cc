@@ -68,7 +68,8 @@ std::vector<double> on_ring(const RingSpace<dim>& space, RingField field) {
       if (n > 0) found.push_back({node, sum / n});
     }
     if (found.empty()) break;
-    for (const auto& [node, value] : found) std::copy(value.begin(), value.end(), &field.values[index(position(node))]);
+    for (const auto& [node, value] : found)
+      std::copy(value.begin(), value.end(), &field.values[index(position(node))]);
     std::erase_if(missing, [&](int node) { return !std::isnan(field.values[index(position(node))]); });
   }
   std::vector<double> v(space.n_dofs(), 0.0);
@@ -106,9 +107,11 @@ Expected<LargeDeformationProblem<dim>> LargeDeformationProblem<dim>::create(cons
 }
 
 template <int dim>
-auto LargeDeformationProblem<dim>::roll(
-    const RollingModel<dim>& model, std::shared_ptr<const DeformableRing<dim>> ring, LoadPositions positions,
-    const std::function<std::optional<EquilibriumStart<dim>>(int)>& start, const Interrupt& interrupt) const
+auto LargeDeformationProblem<dim>::roll(const RollingModel<dim>& model,
+                                        std::shared_ptr<const DeformableRing<dim>> ring,
+                                        LoadPositions positions,
+                                        const std::function<std::optional<EquilibriumStart<dim>>(int)>& start,
+                                        const Interrupt& interrupt) const
     -> Expected<LargeDeformation<dim>, EquilibriumFailure> {
   if (auto failure = unsupported_loads(model)) return EquilibriumFailure{*failure};
   Stopwatch watch;

@@ -18,7 +18,8 @@ struct DeformableRing {
   RingProblem<dim> problem;
   std::vector<PhaseTime> phases;
 
-  DeformableRing(CutDomain<dim> of_shape, const HyperelasticTable<dim>& table, const RollingModel<dim>& model);
+  DeformableRing(CutDomain<dim> of_shape, const HyperelasticTable<dim>& table,
+                 const RollingModel<dim>& model);
   DeformableRing(const DeformableRing&) = delete;
   DeformableRing& operator=(const DeformableRing&) = delete;
 };
@@ -66,7 +67,8 @@ class LargeDeformationProblem : public StateSolver<dim> {
                                                      const Interrupt& interrupt) const;
 
   /// The solution itself; its failures with their instabilities.
-  Expected<LargeDeformation<dim>, EquilibriumFailure> solve(const CutShape<dim>& shape, LoadPositions positions,
+  Expected<LargeDeformation<dim>, EquilibriumFailure> solve(const CutShape<dim>& shape,
+                                                            LoadPositions positions,
                                                             const DeformedStarts& starts = {},
                                                             const Interrupt& interrupt = {}) const;
 
@@ -76,8 +78,8 @@ class LargeDeformationProblem : public StateSolver<dim> {
                                                                   const Interrupt& interrupt = {}) const;
 
   /// The equilibrium with a linearization at its displacement, which it need not have.
-  Expected<RingEquilibrium<dim>, EquilibriumFailure> linearized(const LargeDeformation<dim>& solution,
-                                                                const RingEquilibrium<dim>& equilibrium) const;
+  Expected<RingEquilibrium<dim>, EquilibriumFailure> linearized(
+      const LargeDeformation<dim>& solution, const RingEquilibrium<dim>& equilibrium) const;
 
  private:
   LargeDeformationProblem(const RollingModel<dim>& model, std::unique_ptr<HyperelasticTable<dim>> table,
@@ -85,8 +87,9 @@ class LargeDeformationProblem : public StateSolver<dim> {
       : model_(model), table_(std::move(table)), small_strains_(std::move(small_strains)) {}
 
   Expected<LargeDeformation<dim>, EquilibriumFailure> roll(
-      const RollingModel<dim>& model, std::shared_ptr<const DeformableRing<dim>> ring, LoadPositions positions,
-      const std::function<std::optional<EquilibriumStart<dim>>(int)>& start, const Interrupt& interrupt) const;
+      const RollingModel<dim>& model, std::shared_ptr<const DeformableRing<dim>> ring,
+      LoadPositions positions, const std::function<std::optional<EquilibriumStart<dim>>(int)>& start,
+      const Interrupt& interrupt) const;
 
   RollingModel<dim> model_;
   std::unique_ptr<HyperelasticTable<dim>> table_;

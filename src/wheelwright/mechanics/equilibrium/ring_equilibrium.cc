@@ -250,8 +250,8 @@ auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<Eq
 }
 
 template <int dim>
-auto EquilibriumSolver<dim>::linearized(const RingEquilibrium<dim>& solution, const Interrupt& interrupt) const
-    -> Result {
+auto EquilibriumSolver<dim>::linearized(const RingEquilibrium<dim>& solution,
+                                        const Interrupt& interrupt) const -> Result {
   auto linearization = linearize(solution.v, solution.ground, solution.state.zone.n_columns / 2);
   if (!linearization) return EquilibriumFailure{linearization.failure()};
   auto last = correction(**linearization, (**linearization).forces(), solution.v, rim_control(model_),

@@ -41,8 +41,13 @@ auto TreadObserver<dim>::deformed(const Row& row, const std::vector<double>& v, 
   const PolarGrid<dim>& grid = forms_.domain().grid;
   const int column = wrap(ring_column, grid.ring_columns());
   const Element& element = forms_.table().element(row.row);
-  Deformed result{element, forms_.table().full_cell(row.row), grid.cell_index({row.row, column % grid.columns()}),
-                  column / grid.columns(), {}, {}, {}};
+  Deformed result{element,
+                  forms_.table().full_cell(row.row),
+                  grid.cell_index({row.row, column % grid.columns()}),
+                  column / grid.columns(),
+                  {},
+                  {},
+                  {}};
   forms_.space().gather(result.cell, result.sector, v.data(), result.dofs.data());
   result.u = element.cartesian(result.dofs.data());
   result.volume = element.projected_volume(result.points, result.dofs.data());
@@ -57,8 +62,8 @@ std::vector<double> TreadObserver<dim>::values(const std::vector<double>& v, int
   for (const Row& row : tread_) {
     const Deformed cell = deformed(row, v, ring_column);
     for (size_t q = 0; q < row.annulus.size(); ++q, ++annulus) {
-      const auto r = cell.element.response_at(row.annulus[q], cell.element.deformation(row.annulus[q], cell.u),
-                                              cell.volume);
+      const auto r = cell.element.response_at(row.annulus[q],
+                                              cell.element.deformation(row.annulus[q], cell.u), cell.volume);
       for (int i = 0; i < dim; ++i)
         result[rows_.annulus_traction(annulus) + i] = dot(r.piola[i], row.radial[q]);
     }
@@ -67,7 +72,8 @@ std::vector<double> TreadObserver<dim>::values(const std::vector<double>& v, int
         double u = 0;
         for (int a = 0; a < cell.element.n_nodes(); ++a) u += point.value[a] * cell.u[i][a];
         result[rows_.integral() + i] += point.weight * u;
-        if (rows_.has_spin && i < 2) result[rows_.spin()] += row.density * point.weight * u * point.position[i];
+        if (rows_.has_spin && i < 2)
+          result[rows_.spin()] += row.density * point.weight * u * point.position[i];
       }
   }
   return result;
@@ -87,9 +93,9 @@ void TreadObserver<dim>::add_loads(const std::vector<double>& v, int ring_column
     typename Element::Dofs of_cell{};
     for (size_t q = 0; q < row.annulus.size(); ++q, ++annulus) {
       const Mat<dim> f = cell.element.deformation(row.annulus[q], cell.u);
-      const auto traction =
-          cell.element.traction_tangent(row.annulus[q], cell.element.response_at(row.annulus[q], f, cell.volume),
-                                        f, cell.volume, row.radial[q]);
+      const auto traction = cell.element.traction_tangent(
+          row.annulus[q], cell.element.response_at(row.annulus[q], f, cell.volume), f, cell.volume,
+          row.radial[q]);
       for (int i = 0; i < dim; ++i)
         for (int k = 0; k < cell.element.n_dofs(); ++k)
           of_cell[k] += on_observations[rows_.annulus_traction(annulus) + i] * traction[i][k];
@@ -99,8 +105,7 @@ void TreadObserver<dim>::add_loads(const std::vector<double>& v, int ring_column
       for (int i = 0; i < dim; ++i) {
         double load = on_observations[rows_.integral() + i];
         if (rows_.has_spin && i < 2) load += row.density * on_observations[rows_.spin()] * point.position[i];
-        for (int a = 0; a < cell.element.n_nodes(); ++a)
-          forces[i][a] += point.weight * load * point.value[a];
+        for (int a = 0; a < cell.element.n_nodes(); ++a) forces[i][a] += point.weight * load * point.value[a];
       }
     cell.element.add_to_dofs(forces, of_cell.data());
     forms_.space().scatter(cell.cell, cell.sector, of_cell.data(), loads);

@@ -37,7 +37,7 @@ std::vector<CellBoundary<dim>> cells_of(const CutDomain<dim>& domain, const Load
 
 template <int dim>
 std::vector<SurfacePoint<dim>> moving_boundary_points(const CutDomain<dim>& domain, int degree,
-                                               const LoadPositions& positions) {
+                                                      const LoadPositions& positions) {
   const PolarGrid<dim>& grid = domain.grid;
   std::vector<SurfacePoint<dim>> points;
   for (const CutCell<dim>& cut : domain.cut)
@@ -45,8 +45,7 @@ std::vector<SurfacePoint<dim>> moving_boundary_points(const CutDomain<dim>& doma
       const auto place = grid.cell_position(cell);
       const CellMap<dim> map(grid, degree, place);
       for (const auto& q : rule) {
-        const auto surface =
-            map_surface<dim>(map.jacobian(ShapeFunctions<dim>(degree, q.xi)), q.normal);
+        const auto surface = map_surface<dim>(map.jacobian(ShapeFunctions<dim>(degree, q.xi)), q.normal);
         points.push_back({cell, q.xi, rotated<dim>(surface.normal, place[1] * grid.column_angle()),
                           q.weight * surface.scale});
       }

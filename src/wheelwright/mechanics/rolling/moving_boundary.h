@@ -25,7 +25,7 @@ std::vector<CellBoundary<dim>> cells_of(const CutDomain<dim>& domain, const Load
 /// displacement.
 template <int dim>
 std::vector<SurfacePoint<dim>> moving_boundary_points(const CutDomain<dim>& domain, int degree,
-                                               const LoadPositions& positions);
+                                                      const LoadPositions& positions);
 
 /// Values of functions, [function][point].
 using ByFunction = std::vector<std::vector<double>>;
