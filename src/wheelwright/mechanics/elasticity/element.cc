@@ -4,17 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "wheelwright/mechanics/elasticity/voigt_indices.h"
+
 namespace wheelwright {
 namespace {
-
-/// Tensor indices (i, j) of the Voigt components.
-template <int dim>
-constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
-  if constexpr (dim == 2)
-    return {{{0, 0}, {1, 1}, {0, 1}}};
-  else
-    return {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
-}
 
 /// Variance of the linear functions, in units of h_T^2, below which a part of a cell is too thin to determine
 /// the slope of div u across it. Rounding of the variance is 1e-16.

@@ -6,8 +6,8 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/mechanics/rolling/energy_weights.h"
 #include "wheelwright/mechanics/rolling/integrands.h"
+#include "wheelwright/mechanics/rolling/moving_boundary.h"
 #include "wheelwright/mechanics/rolling/work_of_loads.h"
-#include "wheelwright/shape/geometry/mirror.h"
 
 namespace wheelwright {
 
@@ -32,43 +32,6 @@ Matrix dilatation_columns(const ElasticElement<dim>& element, std::span<const Re
     }
   }
   return columns;
-}
-
-/// The mirror image of the points of a cell.
-template <int dim, class Point>
-std::vector<Point> mirrored(std::vector<Point> points) {
-  for (Point& q : points) {
-    q.xi[1] = 1 - q.xi[1];
-    if constexpr (requires { q.normal; }) q.normal = mirror_image<dim>(q.normal);
-  }
-  return points;
-}
-
-/// The moving boundary in one cell, each of its points as often as it counts, and the material of the cell.
-template <int dim>
-struct CellBoundary {
-  int cell;
-  std::vector<ReferenceSurfacePoint<dim>> rule;
-  std::vector<ReferencePoint<dim>> material;
-  std::vector<ReferenceEdgePoint<dim>> edges;
-};
-
-/// The cells in which gradients are given for one cut cell: it alone; or it and its image, when positions
-/// stand for their images too; nothing for the image itself.
-template <int dim>
-std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const CutCell<dim>& cut) {
-  if (!s.positions.stand_for_images()) return {{cut.cell, cut.boundary, cut.material, cut.edges}};
-  const int image = mirror_image(s.domain.grid, cut.cell);
-  if (image < cut.cell) return {};
-  std::vector<CellBoundary<dim>> cells{
-      {cut.cell, cut.boundary, cut.material, cut.edges},
-      {image, mirrored<dim>(cut.boundary), mirrored<dim>(cut.material), mirrored<dim>(cut.edges)}};
-  if (image == cut.cell)
-    for (auto& cell : cells) {
-      for (auto& q : cell.rule) q.weight /= 2;
-      for (auto& q : cell.edges) q.weight /= 2;
-    }
-  return cells;
 }
 
 /// The densities of all functions, each of its positions as often as it counts.
@@ -196,33 +159,6 @@ class Densities {
   std::vector<EnergyWeights<dim>> energies_;  ///< of every function
 };
 
-using ByFunction = std::vector<std::vector<double>>;
-
-/// The densities in the cells of one cut cell, [function][point]. Where positions stand for their images too,
-/// both are the mean of what the positions give in the one and in the other.
-template <int dim, class InCell>
-ByFunction in_cells(const std::vector<CellBoundary<dim>>& cells, const InCell& in_cell) {
-  if (cells.empty()) return {};
-  ByFunction result = in_cell(cells[0]);
-  if (cells.size() == 1) return result;
-  const ByFunction images = in_cell(cells[1]);
-  for (size_t f = 0; f < result.size(); ++f) {
-    const size_t n = result[f].size();
-    for (size_t q = 0; q < n; ++q) result[f][q] = (result[f][q] + images[f][q]) / 2;
-    for (size_t q = 0; q < n; ++q) result[f].push_back(result[f][q]);
-  }
-  return result;
-}
-
-/// One cell's after the other.
-ByFunction joined(size_t n_functions, const std::vector<ByFunction>& of_cells) {
-  ByFunction all(n_functions);
-  for (const ByFunction& of_cell : of_cells)
-    for (size_t f = 0; f < of_cell.size(); ++f)
-      all[f].insert(all[f].end(), of_cell[f].begin(), of_cell[f].end());
-  return all;
-}
-
 /// By how much the cell's map stretches an edge, whose direction is across the axle's and the reference
 /// normal.
 double edge_stretch(const Mat<3>& jacobian, const Vec<3>& normal) {
@@ -240,20 +176,7 @@ double edge_stretch(const Mat<2>&, const Vec<2>&) { return 1; }
 template <int dim>
 std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>& problem,
                                                const RollingSolution<dim>& s) {
-  const PolarGrid<dim>& grid = s.domain.grid;
-  std::vector<SurfacePoint<dim>> points;
-  for (const CutCell<dim>& cut : s.domain.cut)
-    for (const auto& [cell, rule, material, edges] : cells_of(s, cut)) {
-      const auto place = grid.cell_position(cell);
-      const CellMap<dim> map(grid, problem.model().degree, place);
-      for (const auto& q : rule) {
-        const auto surface =
-            map_surface<dim>(map.jacobian(ShapeFunctions<dim>(problem.model().degree, q.xi)), q.normal);
-        points.push_back({cell, q.xi, rotated<dim>(surface.normal, place[1] * grid.column_angle()),
-                          q.weight * surface.scale});
-      }
-    }
-  return points;
+  return moving_boundary_points(s.domain, problem.model().degree, s.positions);
 }
 
 template <int dim>
@@ -264,7 +187,7 @@ std::vector<SurfacePoint<dim>> edge_points(const RollingProblem<dim>& problem,
   std::vector<SurfacePoint<dim>> points;
   for (const CutCell<dim>& cut : s.domain.cut) {
     if (cut.edges.empty()) continue;
-    for (const CellBoundary<dim>& of_cell : cells_of(s, cut)) {
+    for (const CellBoundary<dim>& of_cell : cells_of(s.domain, s.positions, cut)) {
       const auto place = grid.cell_position(of_cell.cell);
       const CellMap<dim> map(grid, degree, place);
       for (const auto& q : of_cell.edges) {
@@ -286,7 +209,7 @@ ShapeGradients shape_gradients(const RollingProblem<dim>& problem, const Rolling
   const Densities<dim> densities(problem, s, functions, adjoints);
   std::vector<ByFunction> boundary(s.domain.cut.size()), edges(s.domain.cut.size());
   parallel_for(static_cast<int>(s.domain.cut.size()), [&](int c) {
-    const auto cells = cells_of(s, s.domain.cut[c]);
+    const auto cells = cells_of(s.domain, s.positions, s.domain.cut[c]);
     boundary[c] = in_cells(cells, [&](const CellBoundary<dim>& cell) { return densities.in_cell(cell); });
     edges[c] = in_cells(cells, [&](const CellBoundary<dim>& cell) { return densities.on_edges(cell); });
   });

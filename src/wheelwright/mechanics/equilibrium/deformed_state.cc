@@ -1,0 +1,194 @@
+#include "wheelwright/mechanics/equilibrium/deformed_state.h"
+
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "wheelwright/base/stopwatch.h"
+#include "wheelwright/mechanics/contact/contact_results.h"
+#include "wheelwright/mechanics/elasticity/voigt_indices.h"
+#include "wheelwright/mechanics/equilibrium/deformed_gradient.h"
+#include "wheelwright/mechanics/rolling/moving_boundary.h"
+#include "wheelwright/mechanics/state/strain_peaks.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+class DeformedDisplacement : public Displacement<dim> {
+ public:
+  explicit DeformedDisplacement(const LargeDeformation<dim>& solution) : solution_(solution) {}
+
+  RingField at_nodes(int position) const override {
+    const RingSpace<dim>& space = solution_.ring->forms.space();
+    const Lattice<dim>& lattice = space.lattice();
+    const auto& equilibrium = solution_.equilibria[position];
+    const double ground = equilibrium.ground.azimuth(lattice.grid());
+    RingField field{dim, std::vector<double>(dim * size_t(lattice.n_nodes()) * lattice.grid().n_sectors,
+                                             std::numeric_limits<double>::quiet_NaN())};
+    for (int line = 0; line < lattice.nodes()[1] * lattice.grid().n_sectors; ++line) {
+      const double azimuth = line * lattice.node_angle();
+      for (int radial = 0; radial < lattice.nodes()[0]; ++radial) {
+        const std::array<int, dim> place{radial, line};
+        const int node = space.number(place);
+        if (node < 0 && radial > 0) continue;
+        Vec<dim> v{};
+        if (node >= 0) std::copy_n(&equilibrium.v[space.dof(node, 0)], dim, v.begin());
+        const double radius = lattice.radius(radial);
+        const Vec<dim> of_rim = rotated<dim>(
+            displacement<dim>(equilibrium.state.rim, rotated<dim>({radius}, azimuth - ground)), ground);
+        const Vec<dim> u = rotated<dim>(v, azimuth) + of_rim;
+        std::copy(u.begin(), u.end(), &field.values[dim * ring_node<dim>(lattice, place)]);
+      }
+    }
+    return field;
+  }
+
+  Matrix strains(int cell, std::span<const Vec<dim>> points) const override {
+    return computed(cell, points, n_strains<dim>);
+  }
+  Matrix strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override {
+    return computed(cell, points, n_strains<dim> + n_rotations<dim>);
+  }
+
+ private:
+  /// So many rows a point, of which the strains are the first and the rotations the next ones.
+  Matrix computed(int cell, std::span<const Vec<dim>> points, int n_rows) const {
+    static_assert(dim == 2, "one rotation");
+    const RingForms<dim>& forms = solution_.ring->forms;
+    const PolarGrid<dim>& grid = forms.domain().grid;
+    const auto& element = forms.table().element(grid.cell_position(cell)[0]);
+    const bool is_small = element.stored_energy().form == EnergyForm::small_strain;
+    constexpr auto indices = voigt_indices<dim>();
+    std::vector<typename HyperelasticElement<dim>::Point> at;
+    for (const auto& xi : points) at.push_back(element.at(xi));
+    Matrix result(n_rows * static_cast<int>(points.size()), solution_.positions.size() * grid.n_sectors);
+    for (int j = 0; j < result.columns(); ++j) {
+      typename HyperelasticElement<dim>::Dofs dofs;
+      forms.space().gather(cell, j % grid.n_sectors, solution_.equilibria[j / grid.n_sectors].v.data(),
+                           dofs.data());
+      const auto u = element.cartesian(dofs.data());
+      double* to = result.column(j);
+      for (const auto& point : at) {
+        const Mat<dim> f = element.deformation(point, u);
+        for (int k = 0; k < n_strains<dim>; ++k) {
+          const auto [a, b] = indices[k];
+          double product = 0;
+          for (int i = 0; i < dim; ++i) product += f[i][a] * f[i][b];
+          to[k] = is_small ? (a == b ? f[a][a] - 1 : f[a][b] + f[b][a])
+                           : (a == b ? 0.5 * (product - 1) : product);
+        }
+        if (n_rows > n_strains<dim>)
+          to[n_strains<dim>] =
+              is_small ? 0.5 * (f[1][0] - f[0][1]) : std::atan2(f[1][0] - f[0][1], f[0][0] + f[1][1]);
+        to += n_rows;
+      }
+    }
+    return result;
+  }
+
+  const LargeDeformation<dim>& solution_;
+};
+
+template <int dim>
+class DeformedState : public State<dim> {
+ public:
+  DeformedState(const LargeDeformationProblem<dim>& problem, LargeDeformation<dim> solution)
+      : problem_(problem),
+        solution_(std::move(solution)),
+        displacement_(solution_),
+        boundary_(
+            moving_boundary_points(solution_.ring->domain, solution_.model.degree, solution_.positions)) {
+    const int n_columns = solution_.model.grid.ring_columns();
+    observations_ = Matrix(solution_.ring->tread.rows().size(), solution_.positions.size() * n_columns);
+    for (int i = 0; i < solution_.positions.size(); ++i) {
+      const auto& equilibrium = solution_.equilibria[i];
+      energies_.push_back(equilibrium.strain_energy);
+      contacts_.push_back(contact_patch(equilibrium.contact, equilibrium.state));
+      for (int c = 0; c < n_columns; ++c) {
+        const auto values = solution_.ring->tread.values(equilibrium.v, c);
+        std::copy(values.begin(), values.end(), observations_.column(i * n_columns + c));
+      }
+    }
+  }
+
+  const RollingModel<dim>& model() const override { return solution_.model; }
+  const CutDomain<dim>& domain() const override { return solution_.ring->domain; }
+  const LoadPositions& positions() const override { return solution_.positions; }
+  const std::vector<ContactPatch<dim>>& contacts() const override { return contacts_; }
+  const std::vector<double>& strain_energy() const override { return energies_; }
+  const std::vector<double>& energy_by_harmonic() const override { return no_harmonics_; }
+  const Matrix& observations() const override { return observations_; }
+  const std::vector<PhaseTime>& phases() const override { return solution_.phases; }
+  const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
+  const std::vector<SurfacePoint<dim>>& edges() const override { return no_edges_; }
+  const Displacement<dim>& displacement() const override { return displacement_; }
+
+  const StrainPeaks<dim>& strain_peaks() const override {
+    std::call_once(has_peaks_, [this] { peaks_ = wheelwright::strain_peaks(problem_, *this); });
+    return peaks_;
+  }
+
+  Expected<ShapeGradients> shape_gradients(
+      std::span<const FunctionalDerivative<dim>> functions) const override {
+    Stopwatch watch;
+    const auto adjoints = solve_adjoints(problem_, solution_, displacement_, functions);
+    if (!adjoints) return adjoints.failure();
+    const double of_adjoints = watch.lap();
+    auto gradients = wheelwright::shape_gradients<dim>(solution_, displacement_, functions, *adjoints);
+    gradients.phases = {{phase::adjoint, of_adjoints}, {phase::gradient, watch.lap()}};
+    return gradients;
+  }
+
+  Expected<std::vector<std::vector<double>>> topological_derivatives(
+      std::span<const FunctionalDerivative<dim>>, std::span<const MaterialPoint<dim>>) const override {
+    return Failure{FailureReason::unsupported_model, "large deformation has no topological derivatives"};
+  }
+
+  Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
+      std::span<const RollingModel<dim>> models) const override {
+    std::vector<std::vector<ContactPatch<dim>>> result;
+    const LargeDeformation<dim>* last = &solution_;
+    std::optional<LargeDeformation<dim>> solved;
+    for (const RollingModel<dim>& model : models) {
+      auto next = problem_.solve_under(model, *last);
+      if (!next) return Failure(next.failure());
+      solved = *std::move(next);
+      last = &*solved;
+      result.emplace_back();
+      for (const auto& equilibrium : solved->equilibria)
+        result.back().push_back(contact_patch(equilibrium.contact, equilibrium.state));
+    }
+    return result;
+  }
+
+  Expected<std::shared_ptr<const State<dim>>> under(const RollingModel<dim>& model,
+                                                    const Interrupt& interrupt) const override {
+    auto solution = problem_.solve_under(model, solution_, interrupt);
+    if (!solution) return Failure(solution.failure());
+    return deformed_state(problem_, *std::move(solution));
+  }
+
+ private:
+  const LargeDeformationProblem<dim>& problem_;
+  LargeDeformation<dim> solution_;
+  DeformedDisplacement<dim> displacement_;
+  std::vector<SurfacePoint<dim>> boundary_, no_edges_;
+  std::vector<ContactPatch<dim>> contacts_;
+  std::vector<double> energies_, no_harmonics_;
+  Matrix observations_;
+  mutable std::once_flag has_peaks_;
+  mutable StrainPeaks<dim> peaks_;
+};
+
+}  // namespace
+
+template <int dim>
+std::shared_ptr<const State<dim>> deformed_state(const LargeDeformationProblem<dim>& problem,
+                                                 LargeDeformation<dim> solution) {
+  return std::make_shared<DeformedState<dim>>(problem, std::move(solution));
+}
+
+template decltype(deformed_state<2>) deformed_state<2>;
+
+}  // namespace wheelwright

@@ -1,0 +1,103 @@
+#pragma once
+
+#include "wheelwright/mechanics/equilibrium/ring_equilibrium.h"
+#include "wheelwright/mechanics/equilibrium/tread_observer.h"
+#include "wheelwright/mechanics/rolling/rolling_problem.h"
+#include "wheelwright/mechanics/state/state.h"
+
+namespace wheelwright {
+
+/// The ring of one shape at large deformation: what its load positions share.
+template <int dim>
+struct DeformableRing {
+  CutDomain<dim> domain;
+  RingForms<dim> forms;
+  ContactObserver<dim> contact;
+  TreadObserver<dim> tread;
+  EliminationOrders<dim> orders;
+  RingProblem<dim> problem;
+  std::vector<PhaseTime> phases;
+
+  DeformableRing(CutDomain<dim> of_shape, const HyperelasticTable<dim>& table,
+                 const RollingModel<dim>& model);
+  DeformableRing(const DeformableRing&) = delete;
+  DeformableRing& operator=(const DeformableRing&) = delete;
+};
+
+/// The solution of some load positions.
+template <int dim>
+struct LargeDeformation {
+  std::shared_ptr<const DeformableRing<dim>> ring;
+  RollingModel<dim> model;  ///< the load
+  LoadPositions positions;
+  std::vector<RingEquilibrium<dim>> equilibria;
+  std::vector<PhaseTime> phases;
+};
+
+/// Displacements to start from, of another shape or load: of every position the polar components at all
+/// nodes of the lattice of the ring, as RingField with its layout; without the rim's motion.
+struct DeformedStarts {
+  std::vector<RingField> displacements;
+};
+
+/// The rolling problem at large deformation: the StateSolver of wheels with laws of HyperelasticLaw, and of
+/// isotropic linear elasticity in other layers. Strains are those of Green and Lagrange in layers of the
+/// former and small strains in layers of the latter; tractions are Piola's, on the undeformed tread.
+template <int dim>
+class LargeDeformationProblem : public StateSolver<dim> {
+ public:
+  /// Fails with unsupported_model for what large deformation does not know: contact with theta other than 0,
+  /// ground that is not flat, a torque, distributed loads, cords, a refined tread, radii as design
+  /// variables, laws that large_strain_law() does not know.
+  static Expected<LargeDeformationProblem> create(const RollingModel<dim>& model);
+
+  const RollingModel<dim>& model() const override { return model_; }
+  const TreadSurface<dim>& tread_surface() const override { return small_strains_->tread_surface(); }
+  Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape, LoadPositions positions,
+                                                     const Interrupt& interrupt) const override {
+    return states(shape, std::move(positions), {}, interrupt);
+  }
+  Expected<typename StateSolver<dim>::TractionMap> neumann_to_dirichlet(DualNorm norm) const override {
+    return small_strains_->neumann_to_dirichlet(norm);
+  }
+
+  /// The same from given displacements of every position; from none, loads are applied in steps.
+  Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape, LoadPositions positions,
+                                                     const DeformedStarts& starts,
+                                                     const Interrupt& interrupt) const;
+
+  /// The solution itself; its failures with their instabilities.
+  Expected<LargeDeformation<dim>, EquilibriumFailure> solve(const CutShape<dim>& shape,
+                                                            LoadPositions positions,
+                                                            const DeformedStarts& starts = {},
+                                                            const Interrupt& interrupt = {}) const;
+
+  /// The same shape and positions under other loads, from a solution.
+  Expected<LargeDeformation<dim>, EquilibriumFailure> solve_under(const RollingModel<dim>& model,
+                                                                  const LargeDeformation<dim>& solution,
+                                                                  const Interrupt& interrupt = {}) const;
+
+  /// The equilibrium with a linearization at its displacement, which it need not have.
+  Expected<RingEquilibrium<dim>, EquilibriumFailure> linearized(
+      const LargeDeformation<dim>& solution, const RingEquilibrium<dim>& equilibrium) const;
+
+ private:
+  LargeDeformationProblem(const RollingModel<dim>& model, std::unique_ptr<HyperelasticTable<dim>> table,
+                          std::unique_ptr<RollingProblem<dim>> small_strains)
+      : model_(model), table_(std::move(table)), small_strains_(std::move(small_strains)) {}
+
+  Expected<LargeDeformation<dim>, EquilibriumFailure> roll(
+      const RollingModel<dim>& model, std::shared_ptr<const DeformableRing<dim>> ring,
+      LoadPositions positions, const std::function<std::optional<EquilibriumStart<dim>>(int)>& start,
+      const Interrupt& interrupt) const;
+
+  RollingModel<dim> model_;
+  std::unique_ptr<HyperelasticTable<dim>> table_;
+  std::unique_ptr<RollingProblem<dim>> small_strains_;  ///< the limit for small strains, with the same tread
+};
+
+/// The displacements of a state of a LargeDeformationProblem, for the next shape.
+template <int dim>
+DeformedStarts starts_from(const LargeDeformation<dim>& solution);
+
+}  // namespace wheelwright

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <optional>
+
+#include "wheelwright/base/interrupt.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
+#include "wheelwright/mechanics/equilibrium/ring_linearization.h"
+#include "wheelwright/mechanics/ring/tread.h"
+#include "wheelwright/mechanics/state/rolling_model.h"
+
+namespace wheelwright {
+
+/// A load position at large deformation, solved.
+template <int dim>
+struct RingEquilibrium {
+  GroundPosition ground;
+  std::vector<double> v;  ///< without the rim's motion, on the dofs of RingSpace
+  ReducedContact<dim> contact;
+  ContactState<dim> state;
+  double strain_energy;  ///< the stored energy of the material [J/m or J]
+  std::shared_ptr<const RingLinearization<dim>> linearization;  ///< at v, or next to it
+  int n_tangents = 0;                                           ///< that were assembled and factored
+  int n_corrections = 0;                                        ///< steps with an older tangent
+};
+
+/// A displacement to start from, perhaps with its contact.
+template <int dim>
+struct EquilibriumStart {
+  std::vector<double> v;
+  std::optional<ContactState<dim>> contact = {};
+};
+
+/// A way in which a wheel can leave its equilibrium, the contact held.
+struct Instability {
+  double eigenvalue;         ///< its stiffness by that of the undeformed wheel; negative
+  std::vector<double> mode;  ///< its displacement on the dofs of RingSpace, at most 1; empty if not found
+};
+
+/// Why a load position has no solution, or none was found.
+struct EquilibriumFailure : Failure {
+  std::optional<Instability> instability = {};
+};
+
+/// Solves a load position by Newton's method: for each tangent of the ring the contact is solved to its end.
+/// A step must lower the next correction with the same tangent (Deuflhard's natural test); it is halved
+/// otherwise. A tangent serves as long as corrections fall to a tenth.
+///
+/// Without a start the load, or the travel, is applied in steps of at most 2.5 % of the ring's thickness; a
+/// step that fails is halved. Fails with
+///   newton_stalled         if steps become too small,
+///   not_positive_definite  if the wheel is unstable with the contact held,
+///   overload               if material is turned inside out, or the load has a maximum below the wanted one,
+///   and as solve_contact() does.
+template <int dim>
+class EquilibriumSolver {
+ public:
+  /// Refers to all of them. `tread`: that of the model for small strains, not refined.
+  EquilibriumSolver(const RollingModel<dim>& model, const RingProblem<dim>& problem, const Tread<dim>& tread);
+
+  Expected<RingEquilibrium<dim>, EquilibriumFailure> solve(GroundPosition ground,
+                                                           const std::optional<EquilibriumStart<dim>>& start,
+                                                           const Interrupt& interrupt = {}) const;
+
+  /// Under another control of the rim, from a start.
+  Expected<RingEquilibrium<dim>, EquilibriumFailure> solve_under(const RimControl& rim, GroundPosition ground,
+                                                                 const EquilibriumStart<dim>& start,
+                                                                 const Interrupt& interrupt = {}) const;
+
+  /// A solution with a linearization at its displacement, which may have come from an older one.
+  Expected<RingEquilibrium<dim>, EquilibriumFailure> linearized(const RingEquilibrium<dim>& solution,
+                                                                const Interrupt& interrupt = {}) const;
+
+ private:
+  using Result = Expected<RingEquilibrium<dim>, EquilibriumFailure>;
+  struct Correction;
+
+  /// Columns to either side of the ground for a travel.
+  int half_zone(double travel) const;
+  Expected<std::shared_ptr<const RingLinearization<dim>>> linearize(const std::vector<double>& v,
+                                                                    GroundPosition ground, int half) const;
+  Expected<Correction, ContactFailure> correction(const RingLinearization<dim>& linearization,
+                                                  const typename RingForms<dim>::Forces& forces,
+                                                  const std::vector<double>& v, const RimControl& rim,
+                                                  const std::optional<ContactState<dim>>& known,
+                                                  const Interrupt& interrupt) const;
+  Result newton(const RimControl& rim, GroundPosition ground, const EquilibriumStart<dim>& start, int half,
+                const Interrupt& interrupt) const;
+
+  const RollingModel<dim>& model_;
+  const RingProblem<dim>& problem_;
+  const Tread<dim>& tread_;
+  std::shared_ptr<const ContactLaw<dim>> law_;
+};
+
+}  // namespace wheelwright
