@@ -118,10 +118,11 @@ TEST(LossDensity, HasTheSlopesOfItsDifferences) {
   const auto at = [&](double h) {
     Matrix moved = strains;
     for (std::size_t k = 0; k < moved.entries().size(); ++k) moved.data()[k] += h * direction.data()[k];
-    const Matrix values = density.densities({moved, model.grid.n_sectors, law, {}, {Vec<2>{}}});
+    const Matrix values = density.densities({{transposed(moved)}, model.grid.n_sectors, law, {}, {Vec<2>{}}});
     return std::inner_product(factors.begin(), factors.end(), values.entries().begin(), 0.0);
   };
-  const Matrix slopes = density.slopes({strains, model.grid.n_sectors, law, {}, {Vec<2>{}}}, factors);
+  const Matrix slopes =
+      density.slopes({{transposed(strains)}, model.grid.n_sectors, law, {}, {Vec<2>{}}}, factors);
   const double slope =
       std::inner_product(slopes.entries().begin(), slopes.entries().end(), direction.entries().begin(), 0.0);
   // The density is quadratic: its central difference is exact.

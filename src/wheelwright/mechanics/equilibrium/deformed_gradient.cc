@@ -46,25 +46,13 @@ void add_material_loads(const LargeDeformation<dim>& solution, const Displacemen
     const auto place = grid.cell_position(cell);
     const auto covering = integrals_in_row<dim>(integrals, grid, place[0]);
     if (covering.empty()) continue;
-    std::vector<Vec<dim>> xi;
-    for (const auto& point : points) xi.push_back(point.xi);
-    const Matrix strains = by_load_case(displacement.strains(cell, xi));
+    const std::vector<Vec<dim>> xi = places_of<dim>(points);
     const Element<dim>& element = forms.table().element(place[0]);
     const MaterialLaw<dim>& law = solution.model.materials.in_row(grid, place[0]);
     const auto of_cell = element.points(points);
-    const int n_cases = strains.rows();
-    Matrix slopes(n_cases, n_strains<dim>);
-    std::vector<Matrix> sums(points.size(), Matrix(n_cases, n_strains<dim>));
-    for (const auto& [density, factors] : covering) {
-      std::vector<double> of_case(n_cases);
-      for (int j = 0; j < n_cases; ++j) of_case[j] = factors[j / grid.n_sectors];
-      for (size_t q = 0; q < points.size(); ++q) {
-        density->slopes({strain_columns<dim>(strains, n_strains<dim> * static_cast<int>(q)), grid.n_sectors,
-                         law, place, xi[q]},
-                        of_case, stress_columns<dim>(slopes, 0));
-        for (size_t i = 0; i < slopes.entries().size(); ++i) sums[q].data()[i] += slopes.data()[i];
-      }
-    }
+    const StrainsInCell<dim> strains(displacement.strains(cell, xi), grid.n_sectors, law, place, xi);
+    const Matrix slopes = sum_of_slopes<dim>(covering, strains);
+    const int n_cases = strains.n_cases();
     for (int j = 0; j < n_cases; ++j) {
       const int position = j / grid.n_sectors, sector = j % grid.n_sectors;
       typename Element<dim>::Dofs dofs, of_dofs{};
@@ -72,7 +60,8 @@ void add_material_loads(const LargeDeformation<dim>& solution, const Displacemen
       const auto u = element.cartesian(dofs.data());
       for (size_t q = 0; q < points.size(); ++q) {
         Voigt<dim> slope;
-        for (int k = 0; k < n_strains<dim>; ++k) slope[k] = sums[q](j, k);
+        for (int k = 0; k < n_strains<dim>; ++k)
+          slope[k] = slopes(j, n_strains<dim> * static_cast<int>(q) + k);
         const auto& point = of_cell.points[q];
         element.add_work(point,
                          by_deformation<dim>(element.stored_energy(), element.deformation(point, u), slope),
@@ -185,11 +174,8 @@ ShapeGradients shape_gradients(const LargeDeformation<dim>& solution, const Disp
     const Element<dim>& element = forms.table().element(place[0]);
     const auto material = element.points(boundary.material);
     std::vector<typename Element<dim>::Point> points;
-    std::vector<Vec<dim>> xi;
-    for (const auto& q : boundary.rule) {
-      points.push_back(element.at(q.xi));
-      xi.push_back(q.xi);
-    }
+    const std::vector<Vec<dim>> xi = places_of<dim>(boundary.rule);
+    for (const Vec<dim>& place_in_cell : xi) points.push_back(element.at(place_in_cell));
     ByFunction densities(functions.size(), std::vector<double>(points.size(), 0.0));
     typename Element<dim>::Dofs dofs, p;
     for (int i = 0; i < n_positions; ++i)
@@ -204,17 +190,15 @@ ShapeGradients shape_gradients(const LargeDeformation<dim>& solution, const Disp
             densities[f][q] += solution.positions.multiplicities[i] * density.at(points[q], energy, p.data());
         }
       }
-    std::optional<Matrix> strains;
+    std::optional<StrainsInCell<dim>> strains;
     for (size_t f = 0; f < functions.size(); ++f) {
       const auto integrals = integrals_in_row<dim>(functions[f].integrals, grid, place[0]);
       if (integrals.empty()) continue;
-      if (!strains) strains = by_load_case(displacement.strains(boundary.cell, xi));
-      for (size_t q = 0; q < points.size(); ++q)
-        densities[f][q] +=
-            integrand<dim>(solution.positions,
-                           {strain_columns<dim>(*strains, n_strains<dim> * static_cast<int>(q)),
-                            grid.n_sectors, solution.model.materials.in_row(grid, place[0]), place, xi[q]},
-                           integrals);
+      if (!strains)
+        strains.emplace(displacement.strains(boundary.cell, xi), grid.n_sectors,
+                        solution.model.materials.in_row(grid, place[0]), place, xi);
+      const auto values = integrands<dim>(solution.positions, *strains, integrals);
+      for (size_t q = 0; q < points.size(); ++q) densities[f][q] += values[q];
     }
     return densities;
   };

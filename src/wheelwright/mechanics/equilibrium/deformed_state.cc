@@ -44,11 +44,11 @@ class DeformedDisplacement : public Displacement<dim> {
     return field;
   }
 
-  Matrix strains(int cell, std::span<const Vec<dim>> points) const override {
-    return computed(cell, points, n_strains<dim>);
+  FactoredField strains(int cell, std::span<const Vec<dim>> points) const override {
+    return {computed(cell, points, n_strains<dim>)};
   }
-  Matrix strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override {
-    return computed(cell, points, n_strains<dim> + n_rotations<dim>);
+  FactoredField strains_and_rotations(int cell, std::span<const Vec<dim>> points) const override {
+    return {computed(cell, points, n_strains<dim> + n_rotations<dim>)};
   }
 
  private:

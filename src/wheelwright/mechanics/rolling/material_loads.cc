@@ -15,14 +15,7 @@ namespace {
 template <int dim>
 Matrix cell_loads(const StrainsInCell<dim>& strains, std::span<const double> weights,
                   std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
-  Matrix stresses(strains.n_cases(), n_strains<dim> * strains.n_points());
-  for (const auto& [density, factors] : integrals) {
-    std::vector<double> of_case(strains.n_cases());
-    for (int load_case = 0; load_case < strains.n_cases(); ++load_case)
-      of_case[load_case] = factors[load_case / strains.n_sectors()];
-    const Matrix slopes = density->slopes(strains, of_case);
-    for (size_t i = 0; i < slopes.entries().size(); ++i) stresses.data()[i] += slopes.data()[i];
-  }
+  Matrix stresses = sum_of_slopes<dim>(integrals, strains);
   if (std::ranges::all_of(stresses.entries(), [](double entry) { return entry == 0; })) return {};
   for (int j = 0; j < stresses.columns(); ++j)
     for (int i = 0; i < stresses.rows(); ++i) stresses(i, j) *= -weights[j / n_strains<dim>];

@@ -56,6 +56,19 @@ Voigt<dim> strain_of(const StrainsAtPoint<dim>& point, int load_case) {
 }  // namespace
 
 template <int dim>
+Matrix sum_of_slopes(std::span<const typename FunctionalDerivative<dim>::Integral> integrals,
+                     const StrainsInCell<dim>& cell) {
+  Matrix sum(cell.n_cases(), n_strains<dim> * cell.n_points());
+  std::vector<double> of_case(cell.n_cases());
+  for (const auto& [density, factors] : integrals) {
+    for (int j = 0; j < cell.n_cases(); ++j) of_case[j] = factors[j / cell.n_sectors()];
+    const Matrix slopes = density->slopes(cell, of_case);
+    for (std::size_t i = 0; i < slopes.entries().size(); ++i) sum.data()[i] += slopes.data()[i];
+  }
+  return sum;
+}
+
+template <int dim>
 void add(const FunctionalDerivative<dim>& term, const std::vector<double>& factors,
          FunctionalDerivative<dim>& sum) {
   accumulate(factors, term.energy, sum.energy);
@@ -108,6 +121,8 @@ template class DensityOfHistory<2>;
 template class DensityOfHistory<3>;
 template class DensityOfStrain<2>;
 template class DensityOfStrain<3>;
+template Matrix sum_of_slopes(std::span<const FunctionalDerivative<2>::Integral>, const StrainsInCell<2>&);
+template Matrix sum_of_slopes(std::span<const FunctionalDerivative<3>::Integral>, const StrainsInCell<3>&);
 template decltype(add<2>) add<2>;
 template decltype(add<3>) add<3>;
 

@@ -117,6 +117,11 @@ std::vector<typename FunctionalDerivative<dim>::Integral> integrals_in_row(
   return result;
 }
 
+/// The sum of their slopes, each with its factors, in the layout of MaterialDensity::slopes().
+template <int dim>
+Matrix sum_of_slopes(std::span<const typename FunctionalDerivative<dim>::Integral> integrals,
+                     const StrainsInCell<dim>& cell);
+
 /// Adds a term's derivative to `sum`, multiplied at each position by that position's factor. They must be
 /// equal if the term depends on energies by harmonics.
 template <int dim>

@@ -24,14 +24,19 @@ struct StrainsAtPoint {
 };
 
 /// A field at points of a cell in all load cases, as the product of a linear map, rows for every point, and
-/// what it acts on, one column per load case.
+/// what it acts on, one column per load case. A field that is no such product is its own map, without
+/// factors.
 struct FactoredField {
-  Matrix map, factors;
+  Matrix map, factors = {};
 
+  bool is_factored() const { return factors.columns() > 0; }
+  int n_cases() const { return is_factored() ? factors.columns() : map.columns(); }
   /// One column per load case.
-  Matrix by_rows() const { return product(map, Op::none, factors, Op::none); }
+  Matrix by_rows() const { return is_factored() ? product(map, Op::none, factors, Op::none) : map; }
   /// One row per load case.
-  Matrix by_load_case() const { return product(factors, Op::transpose, map, Op::transpose); }
+  Matrix by_load_case() const {
+    return is_factored() ? product(factors, Op::transpose, map, Op::transpose) : transposed(map);
+  }
 };
 
 /// The strains of some points of one cell of a sector in all load cases, each as StrainsAtPoint. Not for
@@ -42,49 +47,40 @@ class StrainsInCell {
   /// `strains`: n_strains rows per point in the map; `cell`: the position of the cell on the grid.
   StrainsInCell(FactoredField strains, int n_sectors, const MaterialLaw<dim>& law,
                 const std::array<int, dim>& cell, std::vector<Vec<dim>> points)
-      : factored_(std::move(strains)),
+      : field_(std::move(strains)),
         n_sectors_(n_sectors),
         law_(law),
         cell_(cell),
         points_(std::move(points)) {}
 
-  /// From the strains themselves, in the layout of strains().
-  StrainsInCell(Matrix strains, int n_sectors, const MaterialLaw<dim>& law, const std::array<int, dim>& cell,
-                std::vector<Vec<dim>> points)
-      : strains_(std::move(strains)),
-        n_sectors_(n_sectors),
-        law_(law),
-        cell_(cell),
-        points_(std::move(points)) {}
-
-  int n_cases() const { return factored_ ? factored_->factors.columns() : strains_->rows(); }
+  int n_cases() const { return field_.n_cases(); }
   int n_points() const { return static_cast<int>(points_.size()); }
   int n_sectors() const { return n_sectors_; }
   const MaterialLaw<dim>& law() const { return law_; }
   const std::array<int, dim>& cell() const { return cell_; }
   const std::vector<Vec<dim>>& points() const { return points_; }
 
-  /// One row per load case, n_strains columns per point. The first call multiplies the factors.
+  /// One row per load case, n_strains columns per point. Computed by the first call.
   const Matrix& strains() const {
-    if (!strains_) strains_ = factored_->by_load_case();
+    if (!strains_) strains_ = field_.by_load_case();
     return *strains_;
   }
   StrainsAtPoint<dim> at(int point) const {
     return {strain_columns<dim>(strains(), n_strains<dim> * point), n_sectors_, law_, cell_, points_[point]};
   }
 
-  /// The map of strains that were given with one.
-  const Matrix& map() const { return factored_->map; }
+  /// The map of factored strains.
+  const Matrix& map() const { return field_.map; }
 
   /// Linear combinations of the load cases, one for every row of `map`: map * strains(), and cheaper.
   Matrix combined(const Matrix& map) const {
-    if (!factored_) return product(map, Op::none, *strains_, Op::none);
-    const Matrix factors = product(map, Op::none, factored_->factors, Op::transpose);
-    return product(factors, Op::none, factored_->map, Op::transpose);
+    if (!field_.is_factored()) return product(map, Op::none, field_.map, Op::transpose);
+    const Matrix factors = product(map, Op::none, field_.factors, Op::transpose);
+    return product(factors, Op::none, field_.map, Op::transpose);
   }
 
  private:
-  std::optional<FactoredField> factored_;
+  FactoredField field_;
   mutable std::optional<Matrix> strains_;
   int n_sectors_;
   const MaterialLaw<dim>& law_;

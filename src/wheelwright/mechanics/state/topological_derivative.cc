@@ -34,8 +34,8 @@ namespace {
 /// The same point under other strains, a block of n_strains columns for each.
 StrainsInCell<2> under(const StrainsAtPoint<2>& point, Matrix strains) {
   const int n_points = strains.columns() / n_strains<2>;
-  return {std::move(strains), point.n_sectors, point.law, point.cell,
-          std::vector<Vec<2>>(n_points, point.xi)};
+  return {
+      {transposed(strains)}, point.n_sectors, point.law, point.cell, std::vector<Vec<2>>(n_points, point.xi)};
 }
 
 /// sum of factor_j M_j.
