@@ -49,6 +49,15 @@ struct OrthotropicConstants {
   bool operator==(const OrthotropicConstants&) const = default;
 };
 
+/// How a material responds to large strains; small_strain: linear elasticity.
+enum class MaterialModel { small_strain, neo_hookean, saint_venant_kirchhoff, mooney_rivlin };
+
+struct LargeStrainConstants {
+  MaterialModel model = MaterialModel::small_strain;
+  double second_share = 0;  ///< c2 / (c1 + c2) of Mooney and Rivlin's model
+  bool operator==(const LargeStrainConstants&) const = default;
+};
+
 /// What a material bears over many turns: FatigueStrength.
 struct FatigueConstants {
   FatigueMeasure fatigue_measure = FatigueMeasure::none;
@@ -62,7 +71,7 @@ struct FatigueConstants {
 };
 
 /// What lies in no layer of the ring.
-struct RingMaterial : Material, OrthotropicConstants, FatigueConstants {
+struct RingMaterial : Material, LargeStrainConstants, OrthotropicConstants, FatigueConstants {
   bool operator==(const RingMaterial&) const = default;
 };
 
@@ -70,7 +79,7 @@ struct RingMaterial : Material, OrthotropicConstants, FatigueConstants {
 enum class LayerHoles { allowed, none };
 
 /// Everything between two radii, of another material than the rest of the ring.
-struct MaterialLayer : OrthotropicConstants, FatigueConstants {
+struct MaterialLayer : LargeStrainConstants, OrthotropicConstants, FatigueConstants {
   std::string name = {};
   std::optional<double> inner_radius = {};  ///< absent: the rim
   std::optional<double> outer_radius = {};  ///< absent: the tread

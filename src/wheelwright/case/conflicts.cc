@@ -18,6 +18,7 @@ Conflicts conflicts(const Case& c) {
   contact_conflicts(c, found);
   material_conflicts(c, found);
   heat_conflicts(c, found);
+  large_strain_conflicts(c, found);
   dimension_conflicts(c, found);
   objective_conflicts(c, found);
   volume_conflicts(c, found);

@@ -85,6 +85,7 @@ namespace {
 /// The smallest number of halvings that gives so many cells per patch, within so many points per column; in
 /// 3D as many per line around the wheel, and not more than 40, because there are many lines.
 int levels_for(const Case& c, double cells_per_patch, int most_points) {
+  if (has_large_strains(c)) return 0;  // it does not refine the tread
   if (c.wheel.dimension == 3) most_points = std::min(most_points, 40);
   const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
   int levels = 0;

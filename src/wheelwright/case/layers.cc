@@ -7,6 +7,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/mechanics/elasticity/orthotropic_law.h"
+#include "wheelwright/mechanics/hyperelastic/hyperelastic_law.h"
 
 namespace wheelwright {
 namespace {
@@ -51,11 +52,26 @@ std::variant<Material, OrthotropicMaterial> material_of(const Case& c,
   return *orthotropic;
 }
 
+EnergyForm energy_form(MaterialModel model) {
+  switch (model) {
+    case MaterialModel::neo_hookean:
+      return EnergyForm::neo_hookean;
+    case MaterialModel::saint_venant_kirchhoff:
+      return EnergyForm::saint_venant_kirchhoff;
+    case MaterialModel::mooney_rivlin:
+      return EnergyForm::mooney_rivlin;
+    default:
+      return EnergyForm::small_strain;
+  }
+}
+
 template <int dim>
 std::shared_ptr<const MaterialLaw<dim>> law_of(const PlacedMaterial& placed) {
   if (const OrthotropicMaterial* material = placed.orthotropic())
     return std::make_shared<OrthotropicLaw<dim>>(*material);
-  return std::make_shared<IsotropicLaw<dim>>(*placed.isotropic());
+  const auto [model, second_share] = placed.large;
+  if (model == MaterialModel::small_strain) return std::make_shared<IsotropicLaw<dim>>(*placed.isotropic());
+  return std::make_shared<HyperelasticLaw<dim>>(*placed.isotropic(), energy_form(model), second_share);
 }
 
 }  // namespace
@@ -133,6 +149,17 @@ CaseKey PlacedMaterial::poissons_ratio_key() const {
   return layer ? key_of(&MaterialLayer::poissons_ratio, *layer) : key_of(&Material::poissons_ratio);
 }
 
+CaseKey PlacedMaterial::model_key() const {
+  if (!layer) return key_of(static_cast<MaterialModel RingMaterial::*>(&LargeStrainConstants::model));
+  return key_of(static_cast<MaterialModel MaterialLayer::*>(&LargeStrainConstants::model), *layer);
+}
+
+bool has_large_strains(const Case& c) {
+  return std::ranges::any_of(placed_materials(c), [](const PlacedMaterial& placed) {
+    return placed.large.model != MaterialModel::small_strain;
+  });
+}
+
 CaseKey PlacedMaterial::loss_factor_key() const {
   return layer ? key_of(&MaterialLayer::loss_factor, *layer) : key_of(&Material::loss_factor);
 }
@@ -179,7 +206,8 @@ std::string name_of_layer(const Case& c, std::size_t layer) {
 std::vector<PlacedMaterial> placed_materials(const Case& c) {
   const char* own_name = "material";
   if (c.layers.empty())
-    return {{own_name, c.wheel.inner_radius, c.wheel.outer_radius, material_of(c, {}), std::nullopt}};
+    return {
+        {own_name, c.wheel.inner_radius, c.wheel.outer_radius, material_of(c, {}), std::nullopt, c.material}};
   std::vector<PlacedMaterial> result;
   int n_rests = 0;
   double radius = c.wheel.inner_radius;
@@ -187,12 +215,12 @@ std::vector<PlacedMaterial> placed_materials(const Case& c) {
   const auto fill = [&](double to) {
     if (!(to > radius + least)) return;
     result.push_back({++n_rests == 1 ? own_name : fmt::format("{} {}", own_name, n_rests), radius, to,
-                      material_of(c, {}), std::nullopt});
+                      material_of(c, {}), std::nullopt, c.material});
   };
   for (const std::size_t i : outward(c)) {
     const auto [inner, outer] = radii(c, c.layers[i]);
     fill(inner);
-    result.push_back({name_of_layer(c, i), inner, outer, material_of(c, i), i});
+    result.push_back({name_of_layer(c, i), inner, outer, material_of(c, i), i, c.layers[i]});
     radius = outer;
   }
   fill(c.wheel.outer_radius);

@@ -17,6 +17,7 @@ struct PlacedMaterial {
   double inner_radius, outer_radius;  ///< [m]
   std::variant<Material, OrthotropicMaterial> material;
   std::optional<std::size_t> layer;  ///< of the case; nothing for what lies in none
+  LargeStrainConstants large = {};
 
   /// Its constants; null if it is of the other kind.
   const Material* isotropic() const { return std::get_if<Material>(&material); }
@@ -38,7 +39,14 @@ struct PlacedMaterial {
   CaseKey youngs_modulus_key() const;
   CaseKey poissons_ratio_key() const;  ///< that of radius and azimuth of an orthotropic material
   CaseKey loss_factor_key() const;
+  CaseKey model_key() const;
 };
+
+/// Whether a material of the ring deforms by large strains, so that the whole wheel is computed so.
+bool has_large_strains(const Case& c);
+
+/// The default of contact.gamma_0 then: with theta = 0 it must be larger than in the symmetric form.
+inline constexpr double gamma_0_of_large_strains = 20;
 
 using OrthotropicConstant = std::optional<double> OrthotropicConstants::*;
 

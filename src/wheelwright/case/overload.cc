@@ -9,7 +9,8 @@
 namespace wheelwright {
 
 bool is_overloaded(const Case& c) {
-  if (c.load.travel || c.contact.with == Counterpart::ring || c.wheel.inner_radius >= c.wheel.outer_radius)
+  if (c.load.travel || has_large_strains(c) || c.contact.with == Counterpart::ring ||
+      c.wheel.inner_radius >= c.wheel.outer_radius)
     return false;
   return hertz_half_width(c) > 0.5 * contact_radius(c);
 }

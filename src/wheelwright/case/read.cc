@@ -21,6 +21,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/fitting_grid.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/load_drawings.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/named_file.h"
@@ -710,6 +711,10 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
                                .angular = is_given(key_of(&Grid::angular_cells)),
                                .axial = is_given(key_of(&Grid::axial_cells))};
   result = with_fitting_grid(std::move(result), given_cells);
+  if (has_large_strains(result)) {
+    if (!is_given(key_of(&Contact::theta))) result.contact.theta = 0;
+    if (!is_given(key_of(&Contact::gamma_0))) result.contact.gamma_0 = gamma_0_of_large_strains;
+  }
   if (result.optimizer.made == Manufacture::turned) {
     if (!is_given(key_of(&Wheel::sectors))) result.wheel.sectors = sectors_of_turned_wheel(result);
     if (!is_given(key_of(&Load::positions))) result.load.positions = 1;

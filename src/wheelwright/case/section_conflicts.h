@@ -24,6 +24,7 @@ void contact_conflicts(const Case& c, Conflicts& found);
 void material_conflicts(const Case& c, Conflicts& found);
 /// A section heat without what it needs.
 void heat_conflicts(const Case& c, Conflicts& found);
+void large_strain_conflicts(const Case& c, Conflicts& found);
 /// Ranges of radii of layers, whose places must be valid.
 void design_radius_conflicts(const Case& c, Conflicts& found);
 /// Keys that exist only in 2D or only in 3D.

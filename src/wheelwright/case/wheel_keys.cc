@@ -158,6 +158,24 @@ std::vector<Key<Struct>> fatigue_keys() {
 }
 
 template <class Struct>
+std::vector<Key<Struct>> large_strain_keys() {
+  return {
+      {.name = "model",
+       .field =
+           ChoiceField<Struct>{{"small_strain", "neo_hookean", "saint_venant_kirchhoff", "mooney_rivlin"},
+                               [](const Struct& s) { return static_cast<int>(s.model); },
+                               [](Struct& s, int i) { s.model = static_cast<MaterialModel>(i); },
+                               [](const Struct& s) -> const void* { return &s.model; }},
+       .meaning = "small_strain: linear elasticity; others, in 2D: large deformation, with these constants "
+                  "for small strains. neo_hookean: rubber and other elastomers; mooney_rivlin: the same with "
+                  "a second constant; saint_venant_kirchhoff: stiff materials that turn by much and strain "
+                  "by little"},
+      {.name = "second_share",
+       .field = NumberField<Struct>{&Struct::second_share, between(0, 1)},
+       .meaning = "c2 / (c1 + c2) of mooney_rivlin"}};
+}
+
+template <class Struct>
 std::vector<Key<Struct>> heat_keys() {
   return {
       {.name = "conductivity",
@@ -174,7 +192,8 @@ std::vector<Key<Struct>> heat_keys() {
 /// With the constants of an orthotropic material, of heat and of fatigue.
 template <class Struct>
 std::vector<Key<Struct>> with_further_constants(std::vector<Key<Struct>> keys) {
-  for (auto& further : {heat_keys<Struct>(), orthotropic_keys<Struct>(), fatigue_keys<Struct>()})
+  for (auto& further :
+       {large_strain_keys<Struct>(), heat_keys<Struct>(), orthotropic_keys<Struct>(), fatigue_keys<Struct>()})
     keys.insert(keys.end(), further.begin(), further.end());
   return keys;
 }
@@ -202,7 +221,9 @@ const Section<RingMaterial>& material_section() {
   using Struct = RingMaterial;
   static const Section<Struct> section{
       .name = "material",
-      .meaning = "linear elasticity, isotropic or orthotropic with the axes radius, azimuth and axle",
+      .meaning =
+          "elasticity: linear, isotropic or orthotropic with the axes radius, azimuth and axle; or of large "
+          "strains",
       .in = [](Case& c) -> Struct& { return c.material; },
       .keys = with_further_constants<Struct>(
           {{.name = "youngs_modulus",

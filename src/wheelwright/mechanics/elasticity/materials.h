@@ -51,6 +51,12 @@ class Materials {
     return stiffness;
   }
 
+  /// Whether all laws are those of small strains.
+  bool are_linear() const {
+    return std::all_of(layers_.begin(), layers_.end(),
+                       [](const Layer& layer) { return layer.law->is_linear(); });
+  }
+
   /// The radii between layers [m].
   std::vector<double> interfaces() const {
     std::vector<double> radii;

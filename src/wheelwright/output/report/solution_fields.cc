@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/mechanics/elasticity/voigt_indices.h"
 #include "wheelwright/output/report/cell_means.h"
 #include "wheelwright/output/report/fatigue_field.h"
 #include "wheelwright/output/report/temperature_picture.h"
@@ -142,6 +143,52 @@ double axial_stress(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
   return stress;
 }
 
+/// du_i / dx_j at a node of a cell, in its frame.
+template <int dim>
+Mat<dim> gradient_at_node(const ElasticElement<dim>& element, int node, const double* dofs) {
+  const auto map = element.gradient(place_of_node<dim>(element.degree(), node));
+  Mat<dim> gradient{};
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j)
+      for (int k = 0; k < element.n_dofs(); ++k) gradient[i][j] += map[dim * i + j][k] * dofs[k];
+  return gradient;
+}
+
+/// Cauchy's stress of a law of large strains; when dim = 2 with that along the axle.
+template <int dim>
+struct TrueStress {
+  Voigt<dim> in_plane;
+  double axial = 0;
+};
+template <int dim>
+TrueStress<dim> true_stress(const MaterialLaw<dim>& law, Mat<dim> f) {
+  for (int i = 0; i < dim; ++i) f[i][i] += 1;
+  constexpr auto indices = voigt_indices<dim>();
+  Voigt<dim> strain;
+  for (int k = 0; k < n_strains<dim>; ++k) {
+    const auto [a, b] = indices[k];
+    double product = 0;
+    for (int i = 0; i < dim; ++i) product += f[i][a] * f[i][b];
+    strain[k] = a == b ? 0.5 * (product - 1) : product;
+  }
+  TrueStress<dim> result;
+  double axial_strain = 0;
+  if (dim == 2) law.along_axle(one_strain<dim>(strain), {&result.axial, 1}, {&axial_strain, 1});
+  const Voigt<dim> second = stress<dim>(law, strain);  // of Piola and Kirchhoff
+  Mat<dim> s{};
+  for (int k = 0; k < n_strains<dim>; ++k)
+    s[indices[k][0]][indices[k][1]] = s[indices[k][1]][indices[k][0]] = second[k];
+  const double j = determinant<dim>(f) * std::sqrt(1 + 2 * axial_strain);
+  for (int k = 0; k < n_strains<dim>; ++k) {
+    const auto [a, b] = indices[k];
+    double sum = 0;
+    for (int m = 0; m < dim; ++m)
+      for (int n = 0; n < dim; ++n) sum += f[a][m] * s[m][n] * f[b][n];
+    result.in_plane[k] = sum / j;
+  }
+  return result;
+}
+
 /// Means of the values that cells have at their nodes.
 template <int components>
 class NodalMeans {
@@ -223,10 +270,15 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
       for (int a = 0; a < element.n_nodes(); ++a, strain += n_strains<dim>) {
         Voigt<dim> at_point;
         std::copy_n(strain, n_strains<dim>, at_point.begin());
-        const auto at_node =
-            in_body_frame(stress<dim>(law, at_point), sum(of_column[cells[c].column], axes[a]),
-                          axial_stress<dim>(law, at_point));
-        of_row.add(cells[c].nodes[a], at_node);
+        const Direction axis = sum(of_column[cells[c].column], axes[a]);
+        if (law.is_linear()) {
+          of_row.add(cells[c].nodes[a],
+                     in_body_frame(stress<dim>(law, at_point), axis, axial_stress<dim>(law, at_point)));
+        } else {
+          const TrueStress<dim> found =
+              true_stress(law, gradient_at_node(element, a, dofs.column(static_cast<int>(c))));
+          of_row.add(cells[c].nodes[a], in_body_frame(found.in_plane, axis, found.axial));
+        }
       }
     }
   }
@@ -349,6 +401,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .stress = stress_field(solver.model(), state.domain(), u),
           .ground_azimuth = ground_azimuth(solver, position),
           .is_bonded = solver.model().contact.counterpart == Counterpart::ring,
+          .is_large = !solver.model().materials.are_linear(),
           .ground = state.model().ground,
           .camber = state.model().camber,
           .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,

@@ -31,6 +31,7 @@ struct PositionFields {
   RingField stress;       ///< stress_components
   double ground_azimuth;  ///< of n_y, body frame [rad]
   bool is_bonded;         ///< the tread to a rigid ring, instead of touching the ground
+  bool is_large;          ///< large deformation, which pictures do not magnify
   Ground ground;          ///< its own mirror image if positions stand for their images
   double camber;          ///< of the wheel on it; 0 when dim = 2 [rad]
   RimMotion rim;          ///< ground frame

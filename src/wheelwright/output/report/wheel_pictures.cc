@@ -22,7 +22,9 @@ DeformedPicture<dim> stress_picture(const PictureNames& names, const PositionFie
   stress.name = "von Mises stress";
   return {.title = names.title,
           .displacement = fields.displacement,
-          .magnification = picture_magnification(fields.displacement, fields.lattice.grid().outer_radius),
+          .magnification = fields.is_large ? 1
+                                           : picture_magnification(fields.displacement,
+                                                                   fields.lattice.grid().outer_radius),
           .contact_azimuth = fields.ground_azimuth,
           .most_stressed_of = names.n_positions,
           .is_bonded = fields.is_bonded,

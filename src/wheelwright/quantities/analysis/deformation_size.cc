@@ -136,7 +136,8 @@ DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<
                        .rotation = 0,
                        .travel = travel_by_thickness(solver, state),
                        .error = {},
-                       .edges_overlap = edges_overlap(solver, psi, state)};
+                       .edges_overlap = edges_overlap(solver, psi, state),
+                       .of_linear_theory = solver.model().materials.are_linear()};
   for (const PositionDeformation& position : positions) {
     size.rotation = std::max(size.rotation, position.largest_rotation);
     if (position.neglected.size() > size.error.size()) size.error = position.neglected;
@@ -168,6 +169,8 @@ double share_of_small_load(const DeformationSize& size) {
 }
 
 std::string deformation_warning(const DeformationSize& size) {
+  if (!size.of_linear_theory)
+    return size.edges_overlap ? "edges of holes cross each other: their contact is not computed" : "";
   if (size.strain <= small_strain && size.travel <= small_travel && size.error.size() <= small_error &&
       !size.edges_overlap)
     return "";

@@ -10,11 +10,12 @@ namespace wheelwright {
 /// How far the states of a shape are from the small deformations of linear elasticity: maxima over the solved
 /// load positions.
 struct DeformationSize {
-  double strain;            ///< absolute value of a principal strain
-  double rotation;          ///< of the material against the rim [rad]
-  double travel;            ///< of the rim, by the thickness of the ring
-  LinearTheoryError error;  ///< of the position where its size is largest
-  bool edges_overlap;       ///< deformed edges of holes or tread cross each other or themselves; only 2D
+  double strain;                 ///< absolute value of a principal strain
+  double rotation;               ///< of the material against the rim [rad]
+  double travel;                 ///< of the rim, by the thickness of the ring
+  LinearTheoryError error;       ///< of the position where its size is largest
+  bool edges_overlap;            ///< deformed edges of holes or tread cross each other or themselves; only 2D
+  bool of_linear_theory = true;  ///< else large deformations were computed as such, and the error is 0
 };
 
 template <int dim>

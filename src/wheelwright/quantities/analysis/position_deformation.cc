@@ -106,6 +106,7 @@ std::vector<PositionDeformation> position_deformations(const StateSolver<dim>& s
     PointSums sums;
     for (const auto& of : of_column) sums += of[i];
     result.push_back(deformation(sums));
+    if (!solver.model().materials.are_linear()) result.back().neglected = {};
   }
   return result;
 }

@@ -14,7 +14,7 @@ struct PositionDeformation {
   double largest_rotation;      ///< of the material against the rim, at the quadrature points [rad]
   double root_mean_strain;      ///< of the norm sqrt(eps:eps); when dim = 2, of the strains in the plane
   double root_mean_rotation;    ///< against the rim [rad]
-  LinearTheoryError neglected;  ///< by linear theory
+  LinearTheoryError neglected;  ///< by linear theory; zero if large strains were computed
 };
 
 /// Of every position that was solved for.

@@ -12,6 +12,7 @@
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
+#include "wheelwright/mechanics/equilibrium/large_deformation_problem.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/functionals/mean_contact_stress.h"
@@ -159,6 +160,13 @@ Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel
       auto solver = HalfWidthSolver::create(model);
       if (!solver) return solver.failure();
       return std::shared_ptr<const StateSolver<dim>>(*std::move(solver));
+    }
+  if constexpr (dim == 2)
+    if (!model.materials.are_linear()) {
+      auto problem = LargeDeformationProblem<dim>::create(model);
+      if (!problem) return problem.failure();
+      return std::shared_ptr<const StateSolver<dim>>(
+          std::make_shared<const LargeDeformationProblem<dim>>(*std::move(problem)));
     }
   auto problem = RollingProblem<dim>::create(model);
   if (!problem) return problem.failure();
