@@ -130,7 +130,11 @@ auto EquilibriumSolver<dim>::newton(const RimControl& rim, GroundPosition ground
     if (interrupt.requested())
       return EquilibriumFailure{{FailureReason::interrupted, "while the wheel was deformed"}};
     auto linearization = linearize(v, ground, half);
-    if (!linearization) return EquilibriumFailure{linearization.failure()};
+    if (!linearization) {
+      EquilibriumFailure failure{linearization.failure()};
+      if (failure.reason == FailureReason::not_positive_definite) failure.unstable = v;
+      return failure;
+    }
     auto wanted = correction(**linearization, (**linearization).forces(), v, rim, known, interrupt);
     if (!wanted) return EquilibriumFailure{wanted.failure()};
     const auto converged = [&](const Correction& last) {
@@ -140,9 +144,8 @@ auto EquilibriumSolver<dim>::newton(const RimControl& rim, GroundPosition ground
     const auto solved = [&](Correction last) {
       v = sum(std::move(v), 1, last.step);
       const double energy = problem_.forms.energy(v);
-      return RingEquilibrium<dim>{
-          ground,     std::move(v), std::move(last.contact), std::move(last.state), energy, *linearization,
-          n_tangents, n_corrections};
+      return checked({ground, std::move(v), std::move(last.contact), std::move(last.state), energy,
+                      *linearization, n_tangents, n_corrections});
     };
     if (converged(*wanted)) return solved(*std::move(wanted));
     bool is_good = true;
@@ -230,8 +233,9 @@ auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<Eq
     if (!solved) {
       if (solved.failure().reason == FailureReason::interrupted) return solved;
       length /= 2;
-      if (length < smallest_step * first) return solved;
-      continue;
+      if (length >= smallest_step * first && !(solved.failure().instability && length < first / 4)) continue;
+      if (!model_.travel && last) return beyond(rim, *last, solved.failure(), interrupt);
+      return explained(solved.failure(), ground);
     }
     n_tangents += solved->n_tangents;
     n_corrections += solved->n_corrections;
@@ -247,6 +251,66 @@ auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<Eq
   last->n_tangents = n_tangents;
   last->n_corrections = n_corrections;
   return *std::move(last);
+}
+
+template <int dim>
+auto EquilibriumSolver<dim>::checked(RingEquilibrium<dim> solution) const -> Result {
+  if (is_stable(*solution.linearization, solution.contact, solution.state)) return solution;
+  EquilibriumFailure failure{{FailureReason::not_positive_definite,
+                              fmt::format("the deformed wheel is unstable at a travel of {:.4g} m",
+                                          solution.state.rim.towards_ground)}};
+  const std::vector<double> zero(solution.v.size(), 0.0);
+  const auto undeformed = linearize(zero, solution.ground, solution.state.zone.n_columns / 2);
+  if (undeformed)
+    failure.instability =
+        first_instability(*solution.linearization, **undeformed, solution.contact, solution.state);
+  if (failure.instability)
+    failure.detail += fmt::format(": the stiffness of its weakest mode is {:.3g} of the undeformed wheel's",
+                                  failure.instability->eigenvalue);
+  return failure;
+}
+
+template <int dim>
+EquilibriumFailure EquilibriumSolver<dim>::explained(EquilibriumFailure failure,
+                                                     GroundPosition ground) const {
+  if (failure.instability || failure.unstable.empty()) return failure;
+  const int half = half_zone(model_.travel.value_or(0));
+  failure.instability =
+      instability_off_the_ground(problem_, failure.unstable, {ground.column - half, 2 * half});
+  if (failure.instability)
+    failure.detail += fmt::format(": the stiffness of its weakest mode is {:.3g} of the undeformed wheel's",
+                                  failure.instability->eigenvalue);
+  return failure;
+}
+
+template <int dim>
+auto EquilibriumSolver<dim>::beyond(const RimControl& rim, const RingEquilibrium<dim>& last,
+                                    EquilibriumFailure failure, const Interrupt& interrupt) const -> Result {
+  constexpr double step = 0.0125, farthest = 0.5;  // of the thickness
+  const double thickness = model_.grid.outer_radius - model_.grid.inner_radius, wanted = pressing_force(rim);
+  EquilibriumStart<dim> from{last.v, last.state};
+  double travel = last.state.rim.towards_ground, largest = last.state.rim_force.towards_ground,
+         at_largest = travel;
+  while (travel < farthest * thickness) {
+    travel += step * thickness;
+    RimControl held;
+    held.prescribed.towards_ground = travel;
+    for (const FreeMotion& motion : rim.free)
+      if (motion.direction.towards_ground == 0) held.free.push_back(motion);
+    const auto solved = solve_under(held, last.ground, from, interrupt);
+    if (!solved) return explained(std::move(failure), last.ground);
+    const double force = solved->state.rim_force.towards_ground;
+    from = {solved->v, solved->state};
+    if (force >= wanted) return solve_under(rim, last.ground, from, interrupt);
+    if (force < largest)
+      return EquilibriumFailure{
+          {FailureReason::overload,
+           fmt::format("the wheel carries at most about {:.4g} N{} at this position, at a travel of {:.4g} m",
+                       largest, dim == 2 ? "/m" : "", at_largest)}};
+    largest = force;
+    at_largest = travel;
+  }
+  return explained(std::move(failure), last.ground);
 }
 
 template <int dim>

@@ -4,7 +4,7 @@
 
 #include "wheelwright/base/interrupt.h"
 #include "wheelwright/mechanics/contact/contact_solver.h"
-#include "wheelwright/mechanics/equilibrium/ring_linearization.h"
+#include "wheelwright/mechanics/equilibrium/stability.h"
 #include "wheelwright/mechanics/ring/tread.h"
 #include "wheelwright/mechanics/state/rolling_model.h"
 
@@ -30,15 +30,11 @@ struct EquilibriumStart {
   std::optional<ContactState<dim>> contact = {};
 };
 
-/// A way in which a wheel can leave its equilibrium, the contact held.
-struct Instability {
-  double eigenvalue;         ///< its stiffness by that of the undeformed wheel; negative
-  std::vector<double> mode;  ///< its displacement on the dofs of RingSpace, at most 1; empty if not found
-};
-
 /// Why a load position has no solution, or none was found.
 struct EquilibriumFailure : Failure {
   std::optional<Instability> instability = {};
+  /// A displacement whose tangent could not be factored, on the dofs of RingSpace; empty: none.
+  std::vector<double> unstable = {};
 };
 
 /// Solves a load position by Newton's method: for each tangent of the ring the contact is solved to its end.
@@ -48,7 +44,7 @@ struct EquilibriumFailure : Failure {
 /// Without a start the load, or the travel, is applied in steps of at most 2.5 % of the ring's thickness; a
 /// step that fails is halved. Fails with
 ///   newton_stalled         if steps become too small,
-///   not_positive_definite  if the wheel is unstable with the contact held,
+///   not_positive_definite  if the wheel is unstable with the contact held (is_stable()),
 ///   overload               if material is turned inside out, or the load has a maximum below the wanted one,
 ///   and as solve_contact() does.
 template <int dim>
@@ -83,6 +79,13 @@ class EquilibriumSolver {
                                                   const std::vector<double>& v, const RimControl& rim,
                                                   const std::optional<ContactState<dim>>& known,
                                                   const Interrupt& interrupt) const;
+  /// The solution if it is stable, or the failure with its mode.
+  Result checked(RingEquilibrium<dim> solution) const;
+  /// The failure, with its mode if it is known by `unstable` alone.
+  EquilibriumFailure explained(EquilibriumFailure failure, GroundPosition ground) const;
+  /// From a solution under a part of the load by the rim's travel, to the load or to its maximum.
+  Result beyond(const RimControl& rim, const RingEquilibrium<dim>& last, EquilibriumFailure failure,
+                const Interrupt& interrupt) const;
   Result newton(const RimControl& rim, GroundPosition ground, const EquilibriumStart<dim>& start, int half,
                 const Interrupt& interrupt) const;
 

@@ -92,11 +92,21 @@ Matrix RingLinearization<dim>::trailing_displacements(const Matrix& loads) const
 template <int dim>
 Matrix RingLinearization<dim>::displacements(Matrix loads) const {
   const Matrix trailing = trailing_displacements(loads);
-  std::copy(trailing.entries().begin(), trailing.entries().end(), loads.column(factor_.n_interior()));
-  factor_.substitute(factor_.full_sweep(), loads);
-  auto result = Matrix::unfilled(loads.rows(), loads.columns());
-  for (int j = 0; j < loads.columns(); ++j)
-    std::copy_n(loads.column(places_[j]), loads.rows(), result.column(j));
+  return substituted(std::move(loads), trailing);
+}
+
+template <int dim>
+Matrix RingLinearization<dim>::extended(const Matrix& trailing) const {
+  return substituted(Matrix(trailing.rows(), factor_.size()), trailing);
+}
+
+template <int dim>
+Matrix RingLinearization<dim>::substituted(Matrix eliminated, const Matrix& trailing) const {
+  std::copy(trailing.entries().begin(), trailing.entries().end(), eliminated.column(factor_.n_interior()));
+  factor_.substitute(factor_.full_sweep(), eliminated);
+  auto result = Matrix::unfilled(eliminated.rows(), eliminated.columns());
+  for (int j = 0; j < eliminated.columns(); ++j)
+    std::copy_n(eliminated.column(places_[j]), eliminated.rows(), result.column(j));
   return result;
 }
 

@@ -45,6 +45,9 @@ class RingLinearization {
   /// `loads`: eliminated; those of the contact are added to the trailing ones.
   Matrix displacements(Matrix loads) const;
 
+  /// Displacements of the ring, without loads off the zone, for trailing ones; one row per set.
+  Matrix extended(const Matrix& trailing) const;
+
   /// The trailing displacements for eliminated loads, one row per set.
   Matrix trailing_displacements(const Matrix& loads) const;
 
@@ -55,12 +58,14 @@ class RingLinearization {
   /// Adds loads on the observations of the zone to the trailing loads in a row of eliminated loads.
   void add_contact_loads(const Matrix& on_observations, int row, Matrix& loads) const;
 
-  /// The normal displacement of a contact point, in the ground's direction, as a function of the trailing
-  /// unknowns; and the displacement along the ground.
-  const Matrix& contact_displacements() const { return tests_; }  ///< (point, component) by trailing unknown
+  /// The displacements of the contact points in the frames of the contact, one row per (point, component), as
+  /// functions of the trailing unknowns.
+  const Matrix& contact_displacements() const { return tests_; }
 
  private:
-  RingLinearization(PartialCholesky factor) : factor_(std::move(factor)) {}
+  explicit RingLinearization(PartialCholesky factor) : factor_(std::move(factor)) {}
+  /// Eliminated loads and trailing displacements as displacements in the order of RingSpace.
+  Matrix substituted(Matrix eliminated, const Matrix& trailing) const;
 
   PartialCholesky factor_;
   std::vector<int> places_;  ///< in elimination order, of every dof of RingSpace
