@@ -289,7 +289,7 @@ template decltype(polar_grid<3>) polar_grid<3>;
 
 std::vector<SolidAnnulus> solid_layers(const Case& c) {
   std::vector<SolidAnnulus> result;
-  for (const auto& [name, inner, outer, material, layer] : placed_materials(c)) {
+  for (const auto& [name, inner, outer, material, layer, large] : placed_materials(c)) {
     if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
     if (!result.empty() && inner <= result.back().outer)
       result.back().outer = outer;

@@ -28,7 +28,7 @@ void check_constants(const PlacedMaterial& placed, Conflicts& found) {
                      "use fatigue_measure = \"none\", or model = \"small_strain\""});
 }
 
-/// The loads that large deformation knows: a force or a travel on flat ground.
+/// The loads that large deformation knows: a force or a travel towards flat ground, and a force along it.
 void check_load(const SingleLoad& single, const CaseKey& model, Conflicts& found) {
   const Load& load = single.c.load;
   const auto refuse = [&](CaseKey key, bool is_given, const char* what) {
@@ -37,7 +37,6 @@ void check_load(const SingleLoad& single, const CaseKey& model, Conflicts& found
                      fmt::format("large deformation does not know {}", what),
                      "omit it, or use model = \"small_strain\""});
   };
-  refuse(single.key(&Load::horizontal_force), load.horizontal_force != 0, "forces along the ground");
   refuse(single.key(&Load::torque), load.torque != 0, "a torque on the rim");
   refuse(single.key(&Load::body_force), load.body_force != std::array<double, 2>{}, "body forces");
   refuse(single.key(&Load::hole_pressure), load.hole_pressure != 0, "pressure in holes");

@@ -276,7 +276,7 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
                      in_body_frame(stress<dim>(law, at_point), axis, axial_stress<dim>(law, at_point)));
         } else {
           const TrueStress<dim> found =
-              true_stress(law, gradient_at_node(element, a, dofs.column(static_cast<int>(c))));
+              true_stress<dim>(law, gradient_at_node(element, a, dofs.column(static_cast<int>(c))));
           of_row.add(cells[c].nodes[a], in_body_frame(found.in_plane, axis, found.axial));
         }
       }
