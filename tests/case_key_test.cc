@@ -48,10 +48,12 @@ TEST(CaseKey, EveryMemberOfATableHasAKey) {
       static_cast<const Material&>(m);
   const auto& [measure, limit, strain, cycles, exponent, pressure_factor, ultimate] =
       static_cast<const FatigueConstants&>(m);
+  const auto& [model, second_share] = static_cast<const LargeStrainConstants&>(m);
   const auto& [e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz] =
       static_cast<const OrthotropicConstants&>(m);
-  expect_keys(m, modulus, ratio, plane, density, loss, conductivity, warmest, measure, limit, strain, cycles,
-              exponent, pressure_factor, ultimate, e_r, e_t, e_z, nu_rt, nu_rz, nu_tz, g_rt, g_rz, g_tz);
+  expect_keys(m, modulus, ratio, plane, density, loss, conductivity, warmest, model, second_share, measure,
+              limit, strain, cycles, exponent, pressure_factor, ultimate, e_r, e_t, e_z, nu_rt, nu_rz, nu_tz,
+              g_rt, g_rz, g_tz);
   const Load l;
   const auto& [force, travel, along, lateral, camber, torque, body, pressure, speed, ground, ground_radius,
                ground_height, ground_place, ground_profile, positions, own, cases] = l;

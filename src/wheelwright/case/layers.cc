@@ -160,6 +160,12 @@ bool has_large_strains(const Case& c) {
   });
 }
 
+Case with_small_strains(Case c) {
+  c.material.model = MaterialModel::small_strain;
+  for (MaterialLayer& layer : c.layers) layer.model = MaterialModel::small_strain;
+  return c;
+}
+
 CaseKey PlacedMaterial::loss_factor_key() const {
   return layer ? key_of(&MaterialLayer::loss_factor, *layer) : key_of(&Material::loss_factor);
 }

@@ -45,7 +45,11 @@ struct PlacedMaterial {
 /// Whether a material of the ring deforms by large strains, so that the whole wheel is computed so.
 bool has_large_strains(const Case& c);
 
-/// The default of contact.gamma_0 then: with theta = 0 it must be larger than in the symmetric form.
+/// The same case with linear elasticity everywhere.
+Case with_small_strains(Case c);
+
+/// The default of contact.gamma_0 at large deformation: with theta = 0 it must be larger than in the
+/// symmetric form.
 inline constexpr double gamma_0_of_large_strains = 20;
 
 using OrthotropicConstant = std::optional<double> OrthotropicConstants::*;

@@ -52,29 +52,31 @@ const Section<Contact>& contact_section() {
       .name = "contact",
       .meaning = "contact of the tread with the ground",
       .in = [](Case& c) -> Contact& { return c.contact; },
-      .keys = {{.name = "with",
-                .field = choice<&Contact::with>({"ground", "ring"}),
-                .meaning = "what the tread is in contact with: flat ground on which it rolls, or a rigid "
-                           "ring to which all of it is bonded, as in a bushing; the load then presses the "
-                           "rim towards each load position"},
-               {.name = "method",
-                .field = choice<&Contact::method>({"nitsche", "penalty"}),
-                .meaning = "Nitsche's method (28) or penalty (22)"},
-               {.name = "theta",
-                .field = NumberField<Contact>{&Contact::theta, any_number},
-                .meaning = "Nitsche's parameter; -1 works with any gamma_0, 0 and 1 need a large one"},
-               {.name = "gamma_0",
-                .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
-                .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell; in plane "
-                           "stress with E (1 + 2 nu) / (1 + nu)^2 for E"},
-               {.name = "friction",
-                .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
-                .meaning = "coefficient F of Coulomb's static friction (16)"},
-               {.name = "quadrature_points",
-                .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
-                .meaning =
-                    "number of Gauss points on each contact face; in 3D along the ground, and along the axle "
-                    "at most degree + 1"}}};
+      .keys = {
+          {.name = "with",
+           .field = choice<&Contact::with>({"ground", "ring"}),
+           .meaning = "what the tread is in contact with: flat ground on which it rolls, or a rigid "
+                      "ring to which all of it is bonded, as in a bushing; the load then presses the "
+                      "rim towards each load position"},
+          {.name = "method",
+           .field = choice<&Contact::method>({"nitsche", "penalty"}),
+           .meaning = "Nitsche's method (28) or penalty (22)"},
+          {.name = "theta",
+           .field = NumberField<Contact>{&Contact::theta, any_number},
+           .meaning = "Nitsche's parameter; -1 works with any gamma_0, 0 and 1 need a large one; at large "
+                      "deformation (material.model) it is 0"},
+          {.name = "gamma_0",
+           .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
+           .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell; in plane "
+                      "stress with E (1 + 2 nu) / (1 + nu)^2 for E; at large deformation by default 20"},
+          {.name = "friction",
+           .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
+           .meaning = "coefficient F of Coulomb's static friction (16)"},
+          {.name = "quadrature_points",
+           .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
+           .meaning =
+               "number of Gauss points on each contact face; in 3D along the ground, and along the axle "
+               "at most degree + 1"}}};
   return section;
 }
 

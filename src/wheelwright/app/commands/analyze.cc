@@ -64,6 +64,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   report.losses = rolling_losses(solver, wheel.shape, solution);
   report.outer_radius = c.wheel.outer_radius;
   report.is_ground_flat = solver.model().ground.is_flat();
+  report.is_linear = solver.model().materials.are_linear();
   report.fatigue = fatigue_results(solver, wheel.shape, solution);
   report.damage = fatigue_damage(solver, wheel.shape, solution, all_loads, print_contact_progress());
   for (const auto& load_case : all_loads) report.load_cases.push_back(load_case.name);

@@ -422,16 +422,19 @@ std::string linear_theory_lines(const RollingReport& report) {
   const PositionDeformation& worst = least_linear(a);
   const double rotation =
       std::ranges::max(a.deformations, {}, &PositionDeformation::largest_rotation).largest_rotation;
-  return fmt::format(
-      "largest strain {} %, largest rotation {} deg\n"
-      "error of linear theory, estimated: {} % of travel and stiffness: the real wheel is stiffer by "
-      "{:+.2g} % (rotation) +-{:.2g} % (strain) {:+.2g} % (bending){}\n",
+  const std::string sizes = fmt::format(
+      "largest strain {} %, largest rotation {} deg\n",
       with_known_error(std::ranges::max(a.peak_strain), largest_error("peak_strain", report), 100),
-      with_known_error(rotation, largest_error("largest_rotation_rad", report), degree),
-      with_known_error(worst.neglected.size(), largest_error("linear_theory_error", report), 100),
-      100 * worst.neglected.of_rotation, 100 * std::abs(worst.neglected.of_strain),
-      100 * worst.neglected.of_bending,
-      report.is_ground_flat ? "" : "; what the shape of the ground adds is not in it");
+      with_known_error(rotation, largest_error("largest_rotation_rad", report), degree));
+  if (!report.is_linear) return sizes;
+  return sizes +
+         fmt::format(
+             "error of linear theory, estimated: {} % of travel and stiffness: the real wheel is stiffer by "
+             "{:+.2g} % (rotation) +-{:.2g} % (strain) {:+.2g} % (bending){}\n",
+             with_known_error(worst.neglected.size(), largest_error("linear_theory_error", report), 100),
+             100 * worst.neglected.of_rotation, 100 * std::abs(worst.neglected.of_strain),
+             100 * worst.neglected.of_bending,
+             report.is_ground_flat ? "" : "; what the shape of the ground adds is not in it");
 }
 
 /// Null if they are not known.

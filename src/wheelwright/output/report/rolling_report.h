@@ -45,6 +45,7 @@ struct RollingReport {
   /// By all load cases of the wheel together, of these names, if their shares of the distance are known.
   std::optional<Expected<FatigueDamage>> damage = {};
   std::vector<std::string> load_cases = {};
+  bool is_linear = true;             ///< the theory; else large deformation
   bool is_ground_flat = true;        ///< else the error of linear theory lacks a part
   std::vector<PassPlace> pass = {};  ///< of the ground below; empty: was not requested
 };

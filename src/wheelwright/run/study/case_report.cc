@@ -218,7 +218,7 @@ std::vector<std::string> holes_in_solid_layers(const Case& c) {
   for (MaterialLayer& layer : open.layers) layer.holes = LayerHoles::allowed;
   const LevelSet<2> shape = initial_shape<2>(open);
   const PolarGrid<2>& grid = shape.lattice.grid();
-  for (const auto& [name, inner, outer, material, layer] : placed_materials(c)) {
+  for (const auto& [name, inner, outer, material, layer, large] : placed_materials(c)) {
     if (!layer || c.layers[*layer].holes == LayerHoles::allowed) continue;
     const auto part = in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line);
     if (material_measure(part) < (1 - 1e-3) * sector_measure<2>(part.lattice.grid()))

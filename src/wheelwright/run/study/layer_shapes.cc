@@ -13,7 +13,7 @@ std::vector<LayerShape<dim>> layer_shapes(const Case& c, const LevelSet<dim>& sh
   std::vector<LayerShape<dim>> result;
   if (c.layers.empty()) return result;
   const PolarGrid<dim>& grid = shape.lattice.grid();
-  for (const auto& [name, inner, outer, material, layer] : placed_materials(c)) {
+  for (const auto& [name, inner, outer, material, layer, large] : placed_materials(c)) {
     LevelSet<dim> part = in_rows(shape, grid.nearest_line(inner).line, grid.nearest_line(outer).line);
     // Holes end a thousandth of a cell before it.
     if (layer && c.layers[*layer].holes == LayerHoles::none)

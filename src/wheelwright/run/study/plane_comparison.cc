@@ -7,6 +7,7 @@
 
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/study/study.h"
 
@@ -75,7 +76,7 @@ std::optional<Plane> PlaneComparison::recommended() const {
 }
 
 Expected<PlaneComparison> compare_planes(const Case& c, const Interrupt& interrupt) {
-  const Case solid = coarse_solid(c);
+  const Case solid = coarse_solid(with_small_strains(c));
   if (solid.grid.radial_cells * solid.grid.angular_cells > 2 * most_cells_of_a_section)
     return Failure{FailureReason::unsupported_model,
                    "layers of materials do not end on the lines of a coarse grid"};
