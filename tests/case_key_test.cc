@@ -81,9 +81,9 @@ TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
   expect_keys(j, minimize, layer, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm);
   const Optimizer o;
   const auto& [method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
-               redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation] = o;
+               redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation, made] = o;
   expect_keys(o, method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
-              redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation);
+              redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation, made);
   const Output f;
   const auto& [folder, vtu, pictures, checkpoints, seconds, errors] = f;
   expect_keys(f, folder, vtu, pictures, checkpoints, seconds, errors);
@@ -116,6 +116,9 @@ TEST(CaseKey, EveryMemberOfAShapeHasAKey) {
   const HoleTapered t;
   const auto& [tapered, tapered_center, profile, tapered_phase] = t;
   expect_keys(t, tapered, tapered_center, profile, tapered_phase);
+  const HoleGroove g;
+  const auto& [inner_side, outer_side, depth, fillet, side] = g;
+  expect_keys(g, inner_side, outer_side, depth, fillet, side);
   const SpokeShape k;
   const auto& [order, as, kind, spokes, thickness, angle, bend, spread, fork, inner, outer, spoke_phase] = k;
   expect_keys(k, as, kind, spokes, thickness, angle, bend, spread, fork, inner, outer, spoke_phase);

@@ -204,7 +204,8 @@ std::string with_all_keys(std::string text) {
   bool is_solid = false;  // of a section of holes that need the width of the wheel
   while (std::getline(lines, line)) {
     if (line.find('[') < 2)
-      is_solid = line.find("[[holes.sphere]]") < 2 || line.find("[[holes.tapered]]") < 2;
+      is_solid = line.find("[[holes.sphere]]") < 2 || line.find("[[holes.tapered]]") < 2 ||
+                 line.find("[[holes.groove]]") < 2;
     const bool has_value = !line.ends_with("=") && !is_solid;
     if (line.size() > 1 && line[0] == '#' && line[1] != ' ' && has_value) line.erase(0, 1);
     if (!line.starts_with("force")) result += line + "\n";
@@ -390,6 +391,7 @@ Case with_solid_holes() {
   c.wheel.dimension = 3;
   c.holes.spheres = {sphere_sections().example};
   c.holes.tapered = {tapered_sections().example};
+  c.holes.grooves = {groove_sections().example};
   return c;
 }
 
@@ -411,7 +413,8 @@ Case with_saved_shape() {
 
 /// A case without problems that has the section.
 Case case_with(const std::string& header) {
-  if (header == "[[holes.sphere]]" || header == "[[holes.tapered]]") return with_solid_holes();
+  if (header == "[[holes.sphere]]" || header == "[[holes.tapered]]" || header == "[[holes.groove]]")
+    return with_solid_holes();
   if (header == "[shape]") return with_saved_shape();
   Case c = with_holes();
   c.constraints = {constraint_sections().example};

@@ -615,15 +615,17 @@ class Layers(unittest.TestCase):
 
 
 class Solid(unittest.TestCase):
-    """A wheel in 3D without symmetry, whose holes are cylinders."""
+    """A wheel in 3D without symmetry, whose holes are cylinders, one of them a little conical."""
 
     FORMATS = "stl,3mf,vtu,vtp,png"
+    CYLINDERS = NO_SYMMETRY.replace("[wheel]", "[wheel]\ndimension = 3").replace("[grid]", "[grid]\naxial_cells = 3")
 
     @classmethod
     def setUpClass(cls):
-        case = NO_SYMMETRY.replace("[wheel]", "[wheel]\ndimension = 3").replace("[grid]", "[grid]\naxial_cells = 3")
+        cone = f"[[holes.tapered]]\nprofile = [[{-WIDTH / 2}, 0.01895], [0, 0.019], [{WIDTH / 2}, 0.01905]]"
+        ring = re.search(r"\[\[holes.ring\]\]\n(count = \d+\ncenter_radius = 0.249)\nradius = 0.019", cls.CYLINDERS)
         cls.source = temporary / "solid.toml"
-        cls.source.write_text(case)
+        cls.source.write_text(cls.CYLINDERS.replace(ring[0], f"{cone}\n{ring[1]}"))
         cls.folder = temporary / "solid_export"
         cls.told = wheelwright("export", cls.source, "--format", cls.FORMATS, "--output", cls.folder)
         cls.reference = exact_reference()
@@ -636,7 +638,7 @@ class Solid(unittest.TestCase):
                       "Backwards edges", "Normals fixed", "Total disconnected facets"):
             self.assertEqual(found[fault], 0, fault)
         volume = self.reference.area * 1e3 * WIDTH
-        # The level set has degree 1: between nodes 5 mm apart its circles lie up to h^2 / 8 R = 0.16 mm inside of the exact ones.
+        # The surface lies up to the tolerance of 0.1 mm inside of the holes.
         self.assertAlmostEqual(found["Volume"], volume, delta=2e-3 * volume)
         heights = [p[2] for t in self.triangles for p in t]
         self.assertEqual((min(heights), max(heights)), (0, struct.unpack("f", struct.pack("f", 1e3 * WIDTH))[0]))
@@ -691,6 +693,18 @@ class Solid(unittest.TestCase):
             self.assertIn(name, told)
             self.assertIn("vtp", told)
         self.assertEqual(os.listdir(folder), [])
+
+    def test_a_wheel_that_is_the_same_along_the_axle_has_the_files_of_a_plane_one(self):
+        plane, prism = temporary / "plane.toml", temporary / "prism.toml"
+        plane.write_text(NO_SYMMETRY)
+        prism.write_text(self.CYLINDERS)
+        folder = temporary / "prism_export"
+        told = wheelwright("export", prism, "--format", "dxf,svg,stl,step", "--output", folder)
+        self.assertIn("the same all along the axle", told)
+        wheelwright("export", plane, "--format", "dxf", "--output", folder)
+        self.assertEqual((folder / "prism.dxf").read_bytes(), (folder / "plane.dxf").read_bytes())
+        # A format of surfaces has the surface.
+        self.assertIn("triangles", wheelwright("export", prism, "--format", "vtp", "--output", folder))
 
     def test_the_same_input_gives_the_same_bytes(self):
         again = temporary / "solid_again"

@@ -258,9 +258,8 @@ TEST_F(SavedShape, OfAWheelInThePlaneIsExtruded) {
   const Case c =
       read(solid_wheel + "[shape]\nfrom = \"plane\"\n" + solid_grid + solid_bands + "iterations = 0\n");
   const LevelSet<3> shape = initial_shape<3>(c);
-  const LevelSet<2> section =
-      initial_shape<2>(read(plane_wheel + "[shape]\nfrom = \"plane\"\n" + plane_grid +
-                            "level_set_degree = 1\n" + solid_bands + "iterations = 0\n"));
+  const LevelSet<2> section = initial_shape<2>(
+      read(plane_wheel + "[shape]\nfrom = \"plane\"\n" + plane_grid + solid_bands + "iterations = 0\n"));
   for (int node = 0; node < shape.lattice.n_nodes(); ++node) {
     const auto p = shape.lattice.node_position(node);
     EXPECT_EQ(shape.values[node], section.values[section.lattice.node_index({p[0], p[1]})]);

@@ -66,6 +66,8 @@ radial_cells = 7
 angular_cells = 72
 axial_cells = 4
 degree = 1
+level_set_degree = 1
+tread_levels = 0
 [optimizer]
 rim_band = 0.0201
 tread_band = 0.0405

@@ -185,11 +185,24 @@ struct HoleTapered {
   bool operator==(const HoleTapered&) const = default;
 };
 
+enum class GrooveSide { both, smaller_z, larger_z };
+
+/// A groove around the axle in one or both side faces; in 3D.
+struct HoleGroove {
+  double inner_radius = 0;
+  double outer_radius = 0;
+  double depth = 0;
+  std::optional<double> fillet = {};  ///< radius of its inner corners; absent: half of what has room
+  GrooveSide side = GrooveSide::both;
+  bool operator==(const HoleGroove&) const = default;
+};
+
 struct Holes {
   std::vector<HoleRing> rings;
   std::vector<HoleCircle> circles;
   std::vector<HoleSphere> spheres;
   std::vector<HoleTapered> tapered;
+  std::vector<HoleGroove> grooves;
   bool operator==(const Holes&) const = default;
 };
 
@@ -346,7 +359,7 @@ struct Grid {
   int axial_cells = 4;      ///< along the axle; in 3D
   int degree = 2;           ///< of the displacement
   DilatationKind dilatation = DilatationKind::automatic;
-  std::optional<int> level_set_degree;  ///< absent: 2, in 3D 1
+  std::optional<int> level_set_degree;  ///< absent: 2
   std::optional<int>
       tread_levels;  ///< halvings of the cells at the tread; absent: as many as the contact needs
   bool operator==(const Grid&) const = default;
@@ -429,6 +442,9 @@ enum class OptimizerMethod {
 /// When new holes are created.
 enum class NucleationTime { never, converged };
 
+/// How the wheel is made, which every shape of a run allows; in 3D.
+enum class Manufacture { free, extruded, turned };
+
 struct Optimizer {
   OptimizerMethod method = OptimizerMethod::automatic;
   int iterations = 100;
@@ -449,6 +465,7 @@ struct Optimizer {
   std::optional<double>
       minimum_radius;  ///< of internal corners [m]; absent: of 0.75 cells in the last part of a run
   NucleationTime nucleation = NucleationTime::never;
+  Manufacture made = Manufacture::free;
   bool operator==(const Optimizer&) const = default;
 };
 

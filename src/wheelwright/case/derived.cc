@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/dimension.h"
@@ -82,9 +83,9 @@ double likely_half_width(const Case& c) {
 namespace {
 
 /// The smallest number of halvings that gives so many cells per patch, within so many points per column; in
-/// 3D none.
+/// 3D as many per line around the wheel, and not more than 40, because there are many lines.
 int levels_for(const Case& c, double cells_per_patch, int most_points) {
-  if (c.wheel.dimension == 3) return 0;
+  if (c.wheel.dimension == 3) most_points = std::min(most_points, 40);
   const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
   int levels = 0;
   while (2 * likely_half_width(c) * (1 << levels) < cells_per_patch * cell &&
@@ -130,9 +131,7 @@ double velocity_length(const Case& c) {
   return c.optimizer.velocity_length.value_or(is_vector ? std::min(8.0, 0.3 * c.grid.radial_cells) : 2);
 }
 
-int level_set_degree(const Case& c) {
-  return c.grid.level_set_degree.value_or(c.wheel.dimension == 3 ? 1 : 2);
-}
+int level_set_degree(const Case& c) { return c.grid.level_set_degree.value_or(2); }
 
 int tread_levels(const Case& c) { return c.grid.tread_levels.value_or(most_levels_for(c, 8, 80)); }
 
@@ -154,6 +153,8 @@ double smallest_hole_in_cells(const Case& c) {
                azimuthal = pi * (c.wheel.outer_radius + c.wheel.inner_radius) / c.grid.angular_cells;
   double smallest = smallest_hole_width(c);
   for (const HoleSphere& sphere : c.holes.spheres) smallest = std::min(smallest, 2 * sphere.radius);
+  for (const HoleGroove& groove : c.holes.grooves)
+    smallest = std::min({smallest, 2 * groove.depth, groove.outer_radius - groove.inner_radius});
   const auto add = [&](Fill as, double diameter) {
     if (as == Fill::hole) smallest = std::min(smallest, diameter);
   };
@@ -359,6 +360,38 @@ std::vector<Sphere> sector_spheres(const Case& c) {
       holes.push_back({sphere.center_radius, azimuth, sphere.z + 0.5 * c.wheel.width, sphere.radius});
     });
   return holes;
+}
+
+double largest_fillet(const HoleGroove& groove) {
+  return std::min(groove.depth, 0.5 * (groove.outer_radius - groove.inner_radius));
+}
+
+std::vector<Groove> grooves(const Case& c) {
+  std::vector<Groove> result;
+  for (const HoleGroove& groove : c.holes.grooves)
+    for (const auto& [side, face] :
+         {std::pair(GrooveSide::smaller_z, 0.0), std::pair(GrooveSide::larger_z, c.wheel.width)})
+      if (groove.side == GrooveSide::both || groove.side == side)
+        result.push_back({groove.inner_radius, groove.outer_radius, face, groove.depth,
+                          groove.fillet.value_or(0.5 * largest_fillet(groove))});
+  return result;
+}
+
+int sectors_of_turned_wheel(const Case& c) {
+  int cells = 3;
+  while (c.grid.angular_cells % cells != 0) ++cells;
+  return c.grid.angular_cells / cells;
+}
+
+Invariance invariance(const Case& c) {
+  switch (c.optimizer.made) {
+    case Manufacture::extruded:
+      return Invariance::along_axle;
+    case Manufacture::turned:
+      return Invariance::about_axle;
+    default:
+      return Invariance::none;
+  }
 }
 
 std::vector<TaperedHole> sector_tapered_holes(const Case& c) {

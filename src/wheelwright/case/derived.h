@@ -5,6 +5,7 @@
 #include "wheelwright/case/case.h"
 #include "wheelwright/mechanics/elasticity/orthotropic_material.h"
 #include "wheelwright/shape/geometry/bands.h"
+#include "wheelwright/shape/geometry/invariance.h"
 #include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
@@ -161,6 +162,14 @@ std::vector<Circle> sector_holes(const Case& c);
 
 /// The holes of one sector that exist only in 3D.
 std::vector<Sphere> sector_spheres(const Case& c);
+/// The grooves of all side faces.
+std::vector<Groove> grooves(const Case& c);
+/// The radius of the largest fillet that a groove has room for [m].
+double largest_fillet(const HoleGroove& groove);
+/// Sectors of at least three cells around the wheel, with which a body of revolution is solved fastest.
+int sectors_of_turned_wheel(const Case& c);
+/// What the way of making the wheel asks of its shapes.
+Invariance invariance(const Case& c);
 std::vector<TaperedHole> sector_tapered_holes(const Case& c);
 
 /// Nodes of the displacement along the axle: 1 in 2D.

@@ -25,11 +25,16 @@ void check_plane_wheel(const SingleLoad& single, Conflicts& found) {
                        "a 2D wheel has no axial direction",
                        "omit the key, or use dimension = 3"});
   for (const auto& [key, n] : {std::pair(key_of(&HoleSphere::count, 0), c.holes.spheres.size()),
-                               std::pair(key_of(&HoleTapered::count, 0), c.holes.tapered.size())})
+                               std::pair(key_of(&HoleTapered::count, 0), c.holes.tapered.size()),
+                               std::pair(key_of(&HoleGroove::depth, 0), c.holes.grooves.size())})
     if (n > 0)
       found.push_back({{key, key_of(&Wheel::dimension)},
                        "such a hole exists only in 3D",
                        "use dimension = 3, or [[holes.ring]]"});
+  if (c.optimizer.made != Manufacture::free)
+    found.push_back({{key_of(&Optimizer::made), key_of(&Wheel::dimension)},
+                     "a 2D wheel has one section",
+                     "omit the key, or use dimension = 3"});
 }
 
 /// Finds keys that wheels in 3D do not support.

@@ -142,6 +142,30 @@ void check_tapered(const Case& c, Conflicts& found) {
   }
 }
 
+/// A groove has room between the bands and in the width, and for its corners.
+void check_grooves(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.holes.grooves.size(); ++i) {
+    const HoleGroove& groove = c.holes.grooves[i];
+    const CaseKey inner = key_of(&HoleGroove::inner_radius, i), outer = key_of(&HoleGroove::outer_radius, i),
+                  depth = key_of(&HoleGroove::depth, i);
+    if (groove.inner_radius >= groove.outer_radius) {
+      found.push_back({{inner, outer}, "the groove has no width", "set outer_radius > inner_radius"});
+      continue;
+    }
+    check_hole_inside(c, 0.5 * (groove.inner_radius + groove.outer_radius),
+                      0.5 * (groove.outer_radius - groove.inner_radius), {inner, outer}, found);
+    const double most = groove.side == GrooveSide::both ? 0.5 * c.wheel.width : c.wheel.width;
+    if (groove.depth >= most)
+      found.push_back({{depth, key_of(&Wheel::width)},
+                       "the groove would cut the wheel into rings",
+                       fmt::format("use less than {:.6g} m", most) + if_in_millimetres(groove.depth, most)});
+    if (const double fillet = largest_fillet(groove); groove.fillet.value_or(0) > fillet)
+      found.push_back({{key_of(&HoleGroove::fillet, i), depth, inner, outer},
+                       "the corners have no room",
+                       fmt::format("use at most {:.6g} m", fillet)});
+  }
+}
+
 }  // namespace
 
 void hole_conflicts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
@@ -150,6 +174,7 @@ void hole_conflicts(const Case& c, const std::vector<DrawnShape>& shapes, Confli
   check_nested_holes(c, found);
   check_spheres(c, found);
   check_tapered(c, found);
+  check_grooves(c, found);
 }
 
 }  // namespace wheelwright

@@ -87,4 +87,28 @@ const SectionArray<HoleTapered>& tapered_sections() {
   return sections;
 }
 
+const SectionArray<HoleGroove>& groove_sections() {
+  static const SectionArray<HoleGroove> sections{
+      .parent = "holes",
+      .name = "groove",
+      .meaning =
+          "in 3D, grooves around the axle in the side faces of the initial shape; give any number of them",
+      .in = [](Case& c) -> std::vector<HoleGroove>& { return c.holes.grooves; },
+      .example = {.inner_radius = 0.23, .outer_radius = 0.31, .depth = 0.03},
+      .keys = {
+          length_key(&HoleGroove::inner_radius, "inner_radius", "radius of its inner side"),
+          length_key(&HoleGroove::outer_radius, "outer_radius", "radius of its outer side"),
+          length_key(&HoleGroove::depth, "depth", "how far it reaches into the wheel along the axle"),
+          {.name = "fillet",
+           .unit = "m",
+           .field = OptionalNumberField<HoleGroove>{&HoleGroove::fillet, between(0, 1000),
+                                                    "half of the largest one that fits"},
+           .meaning = "radius of its corners, at most the depth and half of the width of the groove"},
+          {.name = "side",
+           .field = choice<&HoleGroove::side>({"both", "smaller_z", "larger_z"}),
+           .meaning =
+               "which side faces have it: both, or that at the smaller or larger position along the axle"}}};
+  return sections;
+}
+
 }  // namespace wheelwright

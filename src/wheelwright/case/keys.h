@@ -249,6 +249,7 @@ const SectionArray<HoleRing>& ring_sections();
 const SectionArray<HoleCircle>& circle_sections();
 const SectionArray<HoleSphere>& sphere_sections();
 const SectionArray<HoleTapered>& tapered_sections();
+const SectionArray<HoleGroove>& groove_sections();
 const Section<SavedShape>& saved_shape_section();
 const SectionArray<CircleShape>& circle_shape_sections();
 const SectionArray<EllipseShape>& ellipse_shape_sections();
@@ -279,7 +280,7 @@ constexpr std::tuple all_sections =
                               &material_cord_sections, static_cast<const Section<Load>& (*)()>(&load_section),
                               static_cast<const SectionArray<CaseLoad>& (*)()>(&load_case_sections),
                               &heat_section, &contact_section, &ring_sections, &circle_sections,
-                              &sphere_sections, &tapered_sections, &saved_shape_section},
+                              &sphere_sections, &tapered_sections, &groove_sections, &saved_shape_section},
                    shape_sections,
                    std::tuple{&grid_section, &ghost_penalty_section, &objective_section,
                               &objective_term_sections, &constraint_sections, &volume_section,

@@ -109,12 +109,13 @@ const Section<Grid>& grid_section() {
                "the element of other programs; auto: pointwise up to a Poisson's ratio of 0.4 and in plane "
                "stress, projected from 0.48 on, in between in part"},
           {.name = "level_set_degree",
-           .field = OptionalIntegerField<Grid>{&Grid::level_set_degree, between(1, 2), "2; in 3D 1", "auto"},
+           .field = OptionalIntegerField<Grid>{&Grid::level_set_degree, between(1, 2), "2", "auto"},
            .meaning = "polynomial degree of the level set"},
           {.name = "tread_levels",
            .field = OptionalIntegerField<Grid>{&Grid::tread_levels, between(0, 6),
                                                "8 cells across the contact patch in a run, 36 in an analysis "
-                                               "and in the results of a run; in 3D 0",
+                                               "and in the results of a run; in 3D with at most 40 points "
+                                               "per column and line around the wheel",
                                                "auto"},
            .meaning =
                "how many times the cells at the tread are halved, for accurate contact pressures; the level "

@@ -192,6 +192,11 @@ std::vector<Key<Optimizer>> search_keys() {
        .meaning = "what moves the boundary. vector: a smooth vector field; h1: a smooth speed along the "
                   "normal; harmonic: the speed of the paper's harmonic extension; auto: vector with "
                   "sequential quadratic steps for the weighted sum without bounds in 2D, else h1"},
+      {.name = "made",
+       .field = choice<&Optimizer::made>({"free", "extruded", "turned"}),
+       .meaning =
+           "in 3D, what every shape of a run is. extruded: the same all along the axle; turned: a body of "
+           "revolution, by default in sectors of a few cells and with one load position"},
       {.name = "velocity_length",
        .unit = "cells",
        .field =

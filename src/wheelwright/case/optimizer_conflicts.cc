@@ -51,11 +51,35 @@ void check_nucleation(const Case& c, Conflicts& found) {
            "the effect of new holes on the temperature is not known");
 }
 
+/// The initial shape must be one that can be made so; a saved shape is made to fit.
+void check_manufacture(const Case& c, Conflicts& found) {
+  const auto refuse = [&](const CaseKey& key, std::size_t n, const char* problem, const char* remedy) {
+    if (n > 0) found.push_back({{key, key_of(&Optimizer::made)}, problem, remedy});
+  };
+  if (c.optimizer.made == Manufacture::extruded) {
+    constexpr auto problem = "the hole is not the same along the axle";
+    constexpr auto remedy = "use [[holes.ring]] or drawn shapes, or made = \"free\"";
+    refuse(key_of(&HoleSphere::count, 0), c.holes.spheres.size(), problem, remedy);
+    refuse(key_of(&HoleTapered::count, 0), c.holes.tapered.size(), problem, remedy);
+    refuse(key_of(&HoleGroove::depth, 0), c.holes.grooves.size(), problem, remedy);
+  }
+  if (c.optimizer.made != Manufacture::turned) return;
+  constexpr auto problem = "the hole is not a body of revolution";
+  constexpr auto remedy = "use [[holes.groove]], or made = \"free\"";
+  refuse(key_of(&HoleRing::count, 0), c.holes.rings.size(), problem, remedy);
+  refuse(key_of(&HoleCircle::center, 0), c.holes.circles.size(), problem, remedy);
+  refuse(key_of(&HoleSphere::count, 0), c.holes.spheres.size(), problem, remedy);
+  refuse(key_of(&HoleTapered::count, 0), c.holes.tapered.size(), problem, remedy);
+  if (c.shapes != Shapes{})
+    found.push_back({{key_of(&Optimizer::made)}, "drawn shapes are not bodies of revolution", remedy});
+}
+
 }  // namespace
 
 void optimizer_conflicts(const Case& c, Conflicts& found) {
   check_method(c, found);
   check_nucleation(c, found);
+  check_manufacture(c, found);
 }
 
 }  // namespace wheelwright

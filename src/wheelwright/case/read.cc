@@ -18,6 +18,7 @@
 #include "wheelwright/case/bound_key.h"
 #include "wheelwright/case/case_key.h"
 #include "wheelwright/case/conflicts.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/fitting_grid.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/load_drawings.h"
@@ -709,6 +710,10 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
                                .angular = is_given(key_of(&Grid::angular_cells)),
                                .axial = is_given(key_of(&Grid::axial_cells))};
   result = with_fitting_grid(std::move(result), given_cells);
+  if (result.optimizer.made == Manufacture::turned) {
+    if (!is_given(key_of(&Wheel::sectors))) result.wheel.sectors = sectors_of_turned_wheel(result);
+    if (!is_given(key_of(&Load::positions))) result.load.positions = 1;
+  }
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
     return failed({.kind = Kind::empty,

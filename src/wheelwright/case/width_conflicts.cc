@@ -57,8 +57,8 @@ void width_conflicts(const Case& c, Conflicts& found) {
 }
 
 void widest_gap_conflicts(const Case& c, Conflicts& found) {
-  const bool is_plane_drawing =
-      c.holes.spheres.empty() && c.holes.tapered.empty() && !c.saved_shape.shape.contents;
+  const bool is_plane_drawing = c.holes.spheres.empty() && c.holes.tapered.empty() &&
+                                c.holes.grooves.empty() && !c.saved_shape.shape.contents;
   if (!is_plane_drawing || !(c.optimizer.minimum_gap || c.optimizer.minimum_radius)) return;
   const WidestGap widest = widest_gap(c);
   if (widest.diameter <= 0) return;

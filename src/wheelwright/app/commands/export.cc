@@ -17,6 +17,8 @@
 #include "wheelwright/output/export/plugin.h"
 #include "wheelwright/run/results/fitted_wheel.h"
 #include "wheelwright/run/study/roughness_warning.h"
+#include "wheelwright/shape/geometry/invariance.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 namespace {
@@ -100,8 +102,8 @@ class ExportCommand : public Subcommand {
   void declare(Options& options) override {
     add_wheel(options, input_);
     options.text("--format", "NAME,NAME,...", formats_, check_formats,
-                 fmt::format("Any of {}; without it {}, for a wheel in 3D {}", names_of_formats(),
-                             default_formats, default_formats_3d));
+                 fmt::format("Any of {}; without it {}, for a wheel whose shape changes along the axle {}",
+                             names_of_formats(), default_formats, default_formats_3d));
     options.text("--tolerance", "MM", tolerance_, check_tolerance,
                  fmt::format("Maximum distance of the curves, in 3D of the triangles, from the shape's edges "
                              "[mm]; default {}, in 3D {}",
@@ -115,10 +117,25 @@ class ExportCommand : public Subcommand {
   int run() override {
     const auto wheel = read_wheel_or_report(input_, {name(), {}});
     if (!wheel) return wheel.failure();
+    if (const auto* solid = std::get_if<WheelInput<3>>(&*wheel);
+        solid && is_exported_as_plane(solid->shape)) {
+      fmt::print("{:<16} the same all along the axle, exported as a plane wheel\n", "shape");
+      return export_wheel(
+          WheelInput<2>{solid->source, mid_plane_section(solid->shape), solid->name, solid->which});
+    }
     return std::visit([this](const auto& input) { return export_wheel(input); }, *wheel);
   }
 
  private:
+  /// A wheel in 3D that is the same all along the axle has the files of a plane wheel, unless other ones are
+  /// asked for.
+  bool is_exported_as_plane(const LevelSet<3>& shape) const {
+    return is_invariant(shape, Invariance::along_axle) &&
+           std::ranges::all_of(formats(default_formats), [](const ExportFormat* format) {
+             return can_hold(*format, static_cast<const WheelModel*>(nullptr));
+           });
+  }
+
   double tolerance(double without_option) const {
     constexpr double metres_per_millimetre = 1e-3;
     return metres_per_millimetre * (tolerance_ ? *parse_tolerance(*tolerance_) : without_option);

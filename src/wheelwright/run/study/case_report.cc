@@ -188,7 +188,7 @@ std::vector<std::string> doubtful_modulus(const Case& c) {
 
 /// Explains the effect of a patch of too few cells, and what would help. Below the grid scale the contact is
 /// a line load on a cell, whose indentation contains the logarithm of the cell's width instead of the
-/// patch's.
+/// patch's. The errors are those of rings whose solution is known (docs/method.md).
 std::string coarse_contact_warning(const Case& c, double cells) {
   Case finest = c;
   finest.grid.tread_levels.reset();
@@ -201,7 +201,8 @@ std::string coarse_contact_warning(const Case& c, double cells) {
         "indentation, about {:.2g} mm",
         -std::log(cells) * 2 * load_per_metre(c) / (std::numbers::pi * effective_contact_modulus(c)) * 1e3);
   else
-    text += "pressures are not resolved; energies are accurate to about one percent";
+    text += cells < 2 ? "peak pressures may be off by a third, travel and energies by 3 %"
+                      : "peak pressures may be off by a tenth, travel and energies by 1.5 %";
   if (reachable >= least_cells_per_contact_patch)
     return text + fmt::format("; with grid.tread_levels = {} it is {:.1f} cells wide",
                               *finest.grid.tread_levels, reachable);

@@ -20,7 +20,8 @@ constexpr int most_positions = 4;
 
 bool is_prismatic(const Case& c) {
   const SavedLevelSet* saved = c.saved_shape.shape.contents.get();
-  return c.holes.spheres.empty() && c.holes.tapered.empty() && !(saved && saved->index() == 1);
+  return c.holes.spheres.empty() && c.holes.tapered.empty() && c.holes.grooves.empty() &&
+         !(saved && saved->index() == 1);
 }
 
 /// The wheel in 2D, as in the middle of its width.

@@ -36,13 +36,15 @@ bool is_even(const HoleTapered& hole) {
 }
 
 /// Whether wheel and loads are symmetric across the width, so that half of it is solved. Spheres off the
-/// middle count as asymmetric.
+/// middle and grooves in one face count as asymmetric.
 bool is_halved(const Case& c) {
   if (c.wheel.dimension != 3 || c.grid.axial_cells % 2 != 0) return false;
   for (const Case& single : single_load_cases(c))
     if (single.load.camber != 0 || single.load.lateral_force != 0) return false;
   return std::ranges::all_of(c.holes.spheres, [](const HoleSphere& sphere) { return sphere.z == 0; }) &&
-         std::ranges::all_of(c.holes.tapered, is_even);
+         std::ranges::all_of(c.holes.tapered, is_even) &&
+         std::ranges::all_of(c.holes.grooves,
+                             [](const HoleGroove& groove) { return groove.side == GrooveSide::both; });
 }
 
 /// Whether the holes of a case are symmetric about the plane of azimuth 0, so that its harmonics are real.

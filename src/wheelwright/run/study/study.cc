@@ -211,6 +211,12 @@ LevelSet<dim> saved_on(const Lattice<dim>& lattice, const SavedLevelSet& saved, 
   return on_lattice(std::get<LevelSet<dim>>(saved), lattice);
 }
 
+/// A saved shape at the nodes of another lattice.
+template <int dim>
+LevelSet<dim> moved_to(const Lattice<dim>& lattice, const SavedLevelSet& saved) {
+  return saved_on(lattice, saved, [](const auto& shape, const auto& nodes) { return regrid(shape, nodes); });
+}
+
 /// The volume of a saved shape as a fraction of its ring.
 double volume_fraction_of(const SavedLevelSet& saved) {
   return std::visit(
@@ -226,6 +232,7 @@ LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
   if constexpr (dim == 3) {
     for (const Sphere& hole : sector_spheres(c)) psi = with_hole(std::move(psi), hole);
     for (const TaperedHole& hole : sector_tapered_holes(c)) psi = with_hole(std::move(psi), hole);
+    for (const Groove& groove : grooves(c)) psi = with_hole(std::move(psi), groove);
   }
   return psi;
 }
@@ -233,12 +240,29 @@ LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
 }  // namespace
 
 template <int dim>
+std::optional<std::string> fitting_of_saved_shape(const Case& c) {
+  const SavedLevelSet* saved = saved_shape(c);
+  if (!saved || invariance(c) == Invariance::none) return {};
+  const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
+  const LevelSet<dim> given = moved_to(lattice, *saved), fitted = invariant_part(given, invariance(c));
+  const double cell = lattice.grid().resolution();
+  double farthest = 0;  // of the nodes near an edge
+  for (std::size_t i = 0; i < given.values.size(); ++i)
+    if (std::min(std::abs(given.values[i]), std::abs(fitted.values[i])) < cell)
+      farthest = std::max(farthest, std::abs(given.values[i] - fitted.values[i]));
+  if (farthest < 1e-6 * cell) return {};
+  return fmt::format(
+      "the saved shape is not {}: it is averaged, which moves its edges by up to about {:.2g} mm",
+      c.optimizer.made == Manufacture::turned ? "a body of revolution" : "the same along the axle",
+      1e3 * farthest);
+}
+
+template <int dim>
 LevelSet<dim> initial_shape(const Case& c) {
   const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
-  const auto moved = [](const auto& shape, const auto& nodes) { return regrid(shape, nodes); };
   const SavedLevelSet* saved = saved_shape(c);
   return ProtectedBands<dim>(lattice, bands(c))
-      .keep(saved ? saved_on(lattice, *saved, moved) : drawn_on(lattice, c));
+      .keep(invariant_part(saved ? moved_to(lattice, *saved) : drawn_on(lattice, c), invariance(c)));
 }
 
 template <int dim>
@@ -261,7 +285,8 @@ std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   const Lattice<dim> samples(divided(polar_grid<dim>(c), component_samples), 1);
   const auto sampled = [](const auto& shape, const auto& nodes) { return values_on(shape, nodes); };
   const SavedLevelSet* saved = saved_shape(c);
-  auto given = saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c);
+  auto given =
+      invariant_part(saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c), invariance(c));
   // What layers without holes take of them is not lost on the grid.
   if (const auto solid = solid_layers(c); !solid.empty())
     given = ProtectedBands<dim>(samples, {.rim = {}, .tread = {}, .between = solid}).keep(std::move(given));
@@ -277,6 +302,7 @@ EvolutionOptions evolution_options(const Case& c) {
       kind == VelocityKind::vector ? DeformationKind::vector_field : DeformationKind::normal_speed;
   options.smoothing = c.optimizer.smoothing;
   options.bands = bands(c);
+  options.invariance = invariance(c);
   options.features = {
       .wall = c.optimizer.minimum_wall.value_or(0),
       .gap = std::max(c.optimizer.minimum_gap.value_or(0), 2 * c.optimizer.minimum_radius.value_or(0)),
@@ -394,6 +420,7 @@ ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
   template LoadCases<dim> load_cases<dim>(const Case&);                                                     \
   template LevelSet<dim> initial_shape(const Case&);                                                        \
   template std::optional<VolumeChange> volume_change_of_saved_shape<dim>(const Case&);                      \
+  template std::optional<std::string> fitting_of_saved_shape<dim>(const Case&);                             \
   template OptimizerOptions optimizer_options<dim>(const Case&);                                            \
   template Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>&);         \
   template Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case&, const StateSolver<dim>&); \

@@ -6,16 +6,22 @@ namespace wheelwright {
 
 template <int dim>
 DeformationSpace<dim>::DeformationSpace(const Lattice<dim>& lattice, std::vector<bool> fixed, double length,
-                                        DeformationKind kind)
+                                        DeformationKind kind, Invariance invariance)
     : lattice_(lattice),
       fixed_(std::move(fixed)),
       kind_(kind),
+      invariance_(invariance),
       form_(with_fixed_nodes(multilinear_form<dim>(lattice, 1, length * length), fixed_)),
       factor_(*SparseSpd::factor(lattice.n_nodes(), form_)) {}
 
 template <int dim>
 std::vector<double> DeformationSpace<dim>::representative(std::span<const double> load) const {
-  return by_component(load, [&](const auto& part) { return factor_.solve(restricted(part)); });
+  // The form is that of the lines times that along them, of which constants have the shares of the nodes. The
+  // representative of such a load is therefore constant, up to rounding.
+  return by_component(load, [&](const auto& part) {
+    const auto on_lines = invariant_load<dim>(lattice_, part, invariance_);
+    return invariant_part<dim>(lattice_, factor_.solve(restricted(on_lines)), invariance_);
+  });
 }
 
 template <int dim>

@@ -5,13 +5,14 @@
 
 #include "wheelwright/linalg/sparse_spd.h"
 #include "wheelwright/shape/evolution/boundary_motion.h"
+#include "wheelwright/shape/geometry/invariance.h"
 
 namespace wheelwright {
 
 /// Deformations of a sector. They are multilinear between the nodes of the lattice, vanish at some of them,
-/// and have one component after the other, each at all nodes. A load is a linear function of the deformation,
-/// with as many values. The inner product is (t, w) = sum over the components d of int length^2 grad t_d .
-/// grad w_d + t_d w_d over one sector.
+/// may have to be invariant (Invariance), and have one component after the other, each at all nodes. A load
+/// is a linear function of the deformation, with as many values. The inner product is (t, w) = sum over the
+/// components d of int length^2 grad t_d . grad w_d + t_d w_d over one sector.
 ///
 /// The edges of a thin wall have opposite normals. A smooth vector field moves the wall as a whole, which
 /// changes its stiffness little; a smooth speed moves its edges apart. If deformations are vectors, speeds at
@@ -20,7 +21,8 @@ template <int dim>
 class DeformationSpace {
  public:
   /// `fixed`: the nodes where deformations vanish.
-  DeformationSpace(const Lattice<dim>& lattice, std::vector<bool> fixed, double length, DeformationKind kind);
+  DeformationSpace(const Lattice<dim>& lattice, std::vector<bool> fixed, double length, DeformationKind kind,
+                   Invariance invariance = Invariance::none);
 
   int n_components() const { return kind_ == DeformationKind::vector_field ? dim : 1; }
 
@@ -46,6 +48,7 @@ class DeformationSpace {
   Lattice<dim> lattice_;
   std::vector<bool> fixed_;
   DeformationKind kind_;
+  Invariance invariance_;
   std::vector<SparseSpd::Entry> form_;  ///< of one component: lower triangle, without fixed nodes
   SparseSpd factor_;
 };

@@ -39,10 +39,11 @@ template <int dim>
 Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options)
     : lattice_(lattice),
       space_(options.space),
+      invariance_(options.invariance),
       bands_(lattice, options.bands),
       extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
       deformations_(lattice, bands_.nodes(), options.velocity.length * lattice.grid().resolution(),
-                    options.deformation),
+                    options.deformation, options.invariance),
       features_(options.features),
       cut_points_(options.cut_points) {
   if (options.smoothing > 0)
@@ -53,10 +54,14 @@ template <int dim>
 template <class Extend>
 Expected<std::vector<double>> Evolver<dim>::movable_velocity(std::span<const SurfaceSample<dim>> gradient,
                                                              Extend extend) const {
-  auto velocity = extend(gradient);
+  const auto invariant = [&](Expected<std::vector<double>> velocity) {
+    if (velocity) velocity = invariant_part<dim>(lattice_, *velocity, invariance_);
+    return velocity;
+  };
+  auto velocity = invariant(extend(gradient));
   if (!velocity) return velocity;
   const auto movable = movable_samples<dim>(lattice_, bands_, gradient, *velocity);
-  return movable.size() == gradient.size() ? velocity : extend(movable);
+  return movable.size() == gradient.size() ? velocity : invariant(extend(movable));
 }
 
 template <int dim>
@@ -115,7 +120,13 @@ Expected<LevelSet<dim>> Evolver<dim>::finished(LevelSet<dim> design,
                                                const char* what) const {
   if (auto failure = check_finite<dim>(lattice_, design.values, what)) return *failure;
   for (const MirrorPlane plane : symmetries) design = mirror_symmetric_part(design, plane);
-  return shape_of(std::move(design));
+  // The nodes of a spline are invariant up to rounding only.
+  return invariant_part(shape_of(invariant_part(std::move(design), invariance_)), invariance_);
+}
+
+template <int dim>
+LevelSet<dim> Evolver<dim>::like(const LevelSet<dim>& other, LevelSet<dim> psi) const {
+  return bands_.keep(invariant_part(with_symmetries_of(other, std::move(psi)), invariance_));
 }
 
 template <int dim>
@@ -154,7 +165,7 @@ Expected<LevelSet<dim>> Evolver<dim>::distance(const LevelSet<dim>& psi) const {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
   auto distance = wheelwright::redistance<dim>(psi);
   if (auto failure = check_finite<dim>(lattice_, distance.values, "the signed distance")) return *failure;
-  return bands_.keep(with_symmetries_of(psi, std::move(distance)));
+  return like(psi, std::move(distance));
 }
 
 template <int dim>
@@ -174,7 +185,7 @@ LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi, const Featur
   if (!size.any()) return psi;
   LevelSet<dim> result = with_feature_size(psi, size);
   if (result.values == psi.values) return result;
-  return bands_.keep(with_symmetries_of(psi, std::move(result)));
+  return like(psi, std::move(result));
 }
 
 template <int dim>
@@ -259,7 +270,7 @@ Expected<LevelSet<dim>> Evolver<dim>::widened(const LevelSet<dim>& psi, const st
 template <int dim>
 Expected<AttachedShape<dim>> Evolver<dim>::without_islands(const LevelSet<dim>& psi, double largest) const {
   auto attached = wheelwright::without_islands<dim>(psi, largest);
-  if (attached) attached->psi = bands_.keep(with_symmetries_of(psi, std::move(attached->psi)));
+  if (attached) attached->psi = like(psi, std::move(attached->psi));
   return attached;
 }
 

@@ -28,15 +28,17 @@ struct EvolutionOptions {
   Bands bands;                ///< that stay material
   FeatureSize features = {};  ///< the minimum widths of walls and gaps in every shape
   ShapeSpace space = ShapeSpace::nodal;
+  Invariance invariance = Invariance::none;                     ///< of all shapes and their motions
   DeformationKind deformation = DeformationKind::vector_field;  ///< in the space of deformations()
   int cut_points = 4;  ///< Gauss points per direction in cut cells; as in a solver that reuses them
 };
 
 /// Moves shapes on one lattice. Matrices that depend only on the lattice are factored once. All returned
-/// shapes keep the protected bands. move(), redistance() and smooth() act on the design of a shape, its nodal
-/// values or the coefficients of its spline; the shapes that they return are of the ShapeSpace, and
-/// mirror-symmetric if the given shape and velocity are (shape/geometry/mirror.h). A NaN or infinity in the
-/// input or in the result of a stage is the failure not_finite.
+/// shapes keep the protected bands and the invariance of the options, which the given shapes must have.
+/// move(), redistance() and smooth() act on the design of a shape, its nodal values or the coefficients of
+/// its spline; the shapes that they return are of the ShapeSpace, and mirror-symmetric if the given shape and
+/// velocity are (shape/geometry/mirror.h). A NaN or infinity in the input or in the result of a stage is the
+/// failure not_finite.
 template <int dim>
 class Evolver {
  public:
@@ -119,12 +121,16 @@ class Evolver {
   LevelSet<dim> design_of(const LevelSet<dim>& psi) const;
   LevelSet<dim> shape_of(LevelSet<dim> design) const;
 
+  /// The shape with the symmetries that others must have like this one.
+  LevelSet<dim> like(const LevelSet<dim>& other, LevelSet<dim> psi) const;
+
   /// The shape of the design that is the result of a stage, symmetrized.
   Expected<LevelSet<dim>> finished(LevelSet<dim> design, const std::vector<MirrorPlane>& symmetries,
                                    const char* what) const;
 
   Lattice<dim> lattice_;
   ShapeSpace space_;
+  Invariance invariance_;
   ProtectedBands<dim> bands_;
   std::unique_ptr<VelocityExtension<dim>> extension_;
   DeformationSpace<dim> deformations_;

@@ -52,6 +52,14 @@ double signed_distance(const PolarGrid<3>& grid, const TaperedHole& hole, const 
   return x[1] < radius_at(hole.profile, x[0]) ? distance : -distance;
 }
 
+double signed_distance(const PolarGrid<3>&, const Groove& hole, const Vec<3>& polar) {
+  const double half_width = 0.5 * (hole.outer_radius - hole.inner_radius);
+  const double across = std::abs(polar[0] - hole.inner_radius - half_width) - (half_width - hole.fillet),
+               along = std::abs(polar[2] - hole.face) - (hole.depth - hole.fillet);
+  return hole.fillet - std::hypot(std::max(across, 0.0), std::max(along, 0.0)) -
+         std::min(std::max(across, along), 0.0);
+}
+
 template <int dim>
 double signed_distance(const PolarGrid<dim>& grid, std::span<const Circle> holes, const Vec<dim>& polar) {
   double result = grid.inner_radius - grid.outer_radius;

@@ -27,9 +27,17 @@ struct TaperedHole {
   std::vector<Vec<2>> profile;           ///< [m]
 };
 
+/// A groove around the axle in a side face, a rectangle in the section through the axle with rounded corners.
+struct Groove {
+  double inner_radius, outer_radius;  ///< of its sides [m]
+  double face;                        ///< height of the side face [m]
+  double depth, fillet;               ///< [m]
+};
+
 /// Signed distance [m] to the boundary of a hole and its images in all sectors; positive inside.
 double signed_distance(const PolarGrid<3>& grid, const Sphere& hole, const Vec<3>& polar);
 double signed_distance(const PolarGrid<3>& grid, const TaperedHole& hole, const Vec<3>& polar);
+double signed_distance(const PolarGrid<3>& grid, const Groove& hole, const Vec<3>& polar);
 
 /// Signed distance [m] to the boundary of the union of `holes` and of their images in all sectors; positive
 /// inside a hole. Inside overlapping holes it is a lower bound of the distance. Without holes, minus the
