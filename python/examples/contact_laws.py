@@ -11,12 +11,11 @@ wheel = ww.Case.preset("paper16")
 laws = {
     "Nitsche": {},
     "Nitsche, gamma_0 = 10": {"contact.gamma_0": 10},
-    "penalty": {"contact.method": "penalty", "contact.theta": 0},
-    "penalty, gamma_0 = 10": {"contact.method": "penalty", "contact.theta": 0, "contact.gamma_0": 10},
+    "penalty": {"contact.method": "penalty"},
+    "penalty, gamma_0 = 10": {"contact.method": "penalty", "contact.gamma_0": 10},
     "Nitsche, friction 0.3": {"contact.friction": 0.3},
 }
 for name, keys in laws.items():
-    keys = {"contact.theta": None, **keys} if keys.get("contact.method") == "penalty" else keys
     state = ww.Study(wheel.replace(keys)).solve()
     analysis = ww.analyze(state)
     friction = max(np.abs(c.traction[:, 1]).max() for c in state.contacts)

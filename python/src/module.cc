@@ -21,6 +21,7 @@ PYBIND11_MODULE(_core, m) {
   translate_errors();
   bind_settings(m);
   bind_case(m);
+  bind_pages(m);
   bind<2>(m.def_submodule("plane"));
   bind<3>(m.def_submodule("solid"));
   bind_designs(m);

@@ -12,6 +12,7 @@ namespace py = pybind11;
 void bind_case(py::module_& m);
 void bind_settings(py::module_& m);
 void bind_designs(py::module_& m);
+void bind_pages(py::module_& m);
 template <int dim>
 void bind_shape(py::module_& m);
 template <int dim>

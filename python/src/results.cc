@@ -5,12 +5,12 @@
 #include "held_state.h"
 #include "module.h"
 #include "views.h"
-#include "wheelwright/cad/outline/check_outline.h"
-#include "wheelwright/cad/outline/fit_outline.h"
-#include "wheelwright/case/version.h"
-#include "wheelwright/output/export/fit_surface.h"
 #include "wheelwright/output/export/formats.h"
+#include "wheelwright/output/page/report_run.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
+#include "wheelwright/run/checkpoints/resume_point.h"
+#include "wheelwright/run/observers/solved_report.h"
+#include "wheelwright/run/results/fitted_wheel.h"
 
 namespace wheelwright::python {
 namespace {
@@ -57,44 +57,37 @@ const ExportFormat& format_of(const std::string& name) {
   throw py::value_error(name + " is none of the formats " + known);
 }
 
-std::string program() { return "wheelwright " + std::string(version()); }
-
-[[noreturn]] void refuse(const std::vector<cad::OutlineFault>& faults) {
-  std::string text;
-  for (const cad::OutlineFault& fault : faults) text += (text.empty() ? "" : "; ") + fault.what;
-  raise("Error", text);
-}
-
-py::bytes file(const LevelSet<2>& psi, const HeldCase& held, const ExportFormat& format, double tolerance) {
+std::string written(const ExportFormat& format, const WheelModel& model) {
   if (!format.of_plane) throw py::value_error(std::string(format.name) + " cannot hold a plane wheel");
-  const auto outline = without_gil([&] { return cad::fit_outline(psi, tolerance); });
-  if (!outline) refuse({outline.failure()});
-  const auto checked = without_gil([&] { return cad::check_outline(*outline, psi, tolerance); });
-  if (!checked) refuse(checked.failure());
-  return without_gil([&] {
-    return format.of_plane(WheelModel{.title = held.value.title,
-                                      .program = program(),
-                                      .shape = psi,
-                                      .outline = *outline,
-                                      .width = held.value.wheel.width,
-                                      .tolerance = tolerance});
-  });
+  return without_gil([&] { return format.of_plane(model); });
 }
 
-py::bytes file(const LevelSet<3>& psi, const HeldCase& held, const ExportFormat& format, double tolerance) {
+std::string written(const ExportFormat& format, const SurfaceModel& model) {
   if (!format.of_surface)
     throw py::value_error(std::string(format.name) +
                           " cannot hold a wheel whose shape changes along the axle");
-  const int degree = held.value.grid.degree;
-  const auto fitted = without_gil([&] { return fit_surface(psi, degree, tolerance); });
-  if (!fitted) raise("Error", fitted.failure().what);
-  return without_gil([&] {
-    return format.of_surface(SurfaceModel{.title = held.value.title,
-                                          .program = program(),
-                                          .shape = psi,
-                                          .surface = fitted->surface,
-                                          .parts = fitted->parts,
-                                          .map_degree = degree});
+  return without_gil([&] { return format.of_surface(model); });
+}
+
+/// The file of a shape in a format.
+template <int dim>
+py::bytes file(const LevelSet<dim>& psi, const HeldCase& held, const std::string& format, double tolerance) {
+  const ExportFormat& named = format_of(format);
+  const auto wheel = without_gil([&] { return fitted_wheel(held.value, psi, held.value.title, tolerance); });
+  if (wheel) return written(named, wheel->model);
+  std::string text;
+  for (const cad::OutlineFault& fault : wheel.failure()) text += (text.empty() ? "" : "; ") + fault.what;
+  raise("Error", text);
+}
+
+/// What the page shows of a run in a folder.
+template <int dim>
+PageRun page_run_of(const HeldCase& held, const std::string& folder) {
+  const auto point = without_gil([&] { return resume_point<dim>(folder, held.value); });
+  if (!point.newest)
+    raise("RunError", "no_usable_checkpoint", folder + ": no usable checkpoint of this case");
+  return computed([&](const Interrupt& interrupt) {
+    return solved_page_run(folder, held.value, *point.newest, interrupt);
   });
 }
 
@@ -103,8 +96,13 @@ py::bytes file(const LevelSet<3>& psi, const HeldCase& held, const ExportFormat&
 template <int dim>
 void bind_results(py::module_& m) {
   m.def("analysis", &analysis<dim>);
-  m.def("file", [](const LevelSet<dim>& psi, const HeldCase& held, const std::string& format,
-                   double tolerance) { return file(psi, held, format_of(format), tolerance); });
+  m.def("file", &file<dim>);
+  m.def("page_run", &page_run_of<dim>);
+}
+
+void bind_pages(py::module_& m) {
+  py::class_<PageRun>(m, "PageRun");
+  m.def("report_page", [](const std::vector<PageRun>& runs) { return report_page(runs); });
 }
 
 template void bind_results<2>(py::module_&);

@@ -173,6 +173,16 @@ class Designs(Folder):
         self.assertTrue((self.folder / "explored" / "pareto.svg").exists())
 
 
+class Reports(Folder):
+    def test_show_runs_side_by_side(self):
+        for name in ("a", "b"):
+            ww.Run(small().replace({"optimizer.iterations": 1}), self.folder / name).execute()
+        ww.report([self.folder / "a", self.folder / "b"], self.folder / "both.html")
+        page = (self.folder / "both.html").read_text()
+        self.assertIn('"name":"a"', page)
+        self.assertIn('"name":"b"', page)
+
+
 class Exports(Folder):
     def test_have_the_format_of_the_ending(self):
         study = ww.Study(small())
@@ -181,6 +191,11 @@ class Exports(Folder):
             self.assertGreater((self.folder / f"wheel.{ending}").stat().st_size, 1000)
         with self.assertRaisesRegex(ValueError, "dxf"):
             study.export(self.folder / "wheel.txt")
+
+    def test_have_the_layers_of_the_case(self):
+        study = ww.Study(ww.Case.preset("caster-tyre"))
+        study.export(self.folder / "wheel.dxf")
+        self.assertIn("tyre", (self.folder / "wheel.dxf").read_text())
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ from .functionals import (
     TotalFunctional,
 )
 from .optimizer import Evolver, Optimizer, Progress, Trial
-from .results import RollingAnalysis, analyze, export
+from .results import RollingAnalysis, analyze, export, report
 from .run import Finding, Run, RunResult
 from .settings import Settings, limit_threads, settings
 from .shape import Shape
@@ -94,6 +94,7 @@ __all__ = [
     "export",
     "limit_threads",
     "presets",
+    "report",
     "settings",
     "sweep",
 ]

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from os import PathLike
+from collections.abc import Iterable
+from os import PathLike, fspath
 from pathlib import Path
 from typing import NamedTuple, Optional
 
 import numpy as np
 
+from . import _core
 from ._dimension import of
 from ._types import FloatArray
 from .case import Case
+from .functionals import OwnFunctional
 from .shape import Shape
 from .state import State
 
@@ -71,3 +74,21 @@ def export(case: Case, shape: Shape, file: str | PathLike[str], tolerance: float
         tolerance = 1e-5 if case.dimension == 2 else 1e-4
     content = of(case.dimension).file(shape._core, case._core, path.suffix.lstrip("."), tolerance)
     path.write_bytes(content)
+
+
+def report(
+    folders: Iterable[str | PathLike[str]], file: str | PathLike[str], functionals: Iterable[OwnFunctional] = ()
+) -> None:
+    """Writes the page of one or several runs, side by side, as ``wheelwright report`` does.
+
+    Args:
+        folders: of the runs.
+        file: an HTML file.
+        functionals: the own quantities that their cases name.
+    """
+    own = tuple(functionals)
+    runs = []
+    for folder in folders:
+        case = Case(folder, own)
+        runs.append(of(case.dimension).page_run(case._core, fspath(folder)))
+    Path(file).write_text(_core.report_page(runs), encoding="utf-8")

@@ -11,16 +11,11 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
 #include "wheelwright/base/text.h"
-#include "wheelwright/cad/outline/check_outline.h"
-#include "wheelwright/cad/outline/cut_outline.h"
-#include "wheelwright/cad/outline/fit_outline.h"
-#include "wheelwright/case/version.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
-#include "wheelwright/output/export/fit_surface.h"
 #include "wheelwright/output/export/formats.h"
 #include "wheelwright/output/export/plugin.h"
-#include "wheelwright/run/study/layer_shapes.h"
+#include "wheelwright/run/results/fitted_wheel.h"
 #include "wheelwright/run/study/roughness_warning.h"
 #include "wheelwright/shape/geometry/invariance.h"
 #include "wheelwright/shape/geometry/section.h"
@@ -189,58 +184,21 @@ class ExportCommand : public Subcommand {
 
   /// The model of a wheel; prints what its outline is worth.
   static Expected<WheelModel, Faults> fitted(const WheelInput<2>& input, double accuracy) {
-    auto outline = cad::fit_outline(input.shape, accuracy);
-    if (!outline) return Faults{outline.failure()};
-    const auto report = cad::check_outline(*outline, input.shape, accuracy);
-    if (!report) return report.failure();
-    WheelModel wheel{.title = title(input),
-                     .program = program(),
-                     .shape = input.shape,
-                     .outline = *std::move(outline),
-                     .width = input.source.wheel.width,
-                     .tolerance = accuracy};
-    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*report));
-    warn_of_pieces(report->bodies);
-    if (const auto warning = roughness_warning(input.source, report->roughness); !warning.empty())
+    auto wheel = fitted_wheel(input.source, input.shape, title(input), accuracy);
+    if (!wheel) return wheel.failure();
+    fmt::print("{:<16} {}\n{}", "wheel", wheel->model.title, text(wheel->report));
+    warn_of_pieces(wheel->report.bodies);
+    if (const auto warning = roughness_warning(input.source, wheel->report.roughness); !warning.empty())
       print_warning(stderr, warning);
-    auto layers = layer_shapes(input.source, input.shape);
-    if (layers.empty()) return wheel;
-    auto outlines = cad::cut_by_circles(wheel.outline, cutting_radii(input.source, accuracy));
-    if (!outlines) return Faults{outlines.failure()};
-    Faults faults;
-    for (std::size_t k = 0; k < layers.size(); ++k) {
-      for (const cad::OutlineFault& fault : cad::crossing_faults((*outlines)[k], accuracy))
-        faults.push_back(
-            {fmt::format("{}, of {}: they are nearer to each other than the tolerance; use a "
-                         "smaller --tolerance",
-                         fault.what, layers[k].name)});
-      wheel.layers.push_back(
-          {std::move(layers[k].name), std::move(layers[k].shape), std::move((*outlines)[k])});
-    }
-    if (!faults.empty()) return faults;
-    return wheel;
+    return std::move(wheel->model);
   }
 
   static Expected<SurfaceModel, Faults> fitted(const WheelInput<3>& input, double accuracy) {
-    const auto surfaced = [&](const LevelSet<3>& shape) {
-      return fit_surface(shape, input.source.grid.degree, accuracy);
-    };
-    const auto whole = surfaced(input.shape);
-    if (!whole) return Faults{{whole.failure().what}};
-    SurfaceModel wheel{.title = title(input),
-                       .program = program(),
-                       .shape = input.shape,
-                       .surface = whole->surface,
-                       .parts = whole->parts,
-                       .map_degree = input.source.grid.degree};
-    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*whole));
-    warn_of_pieces(whole->report.bodies);
-    for (LayerShape<3>& layer : layer_shapes(input.source, input.shape)) {
-      const auto part = surfaced(layer.shape);
-      if (!part) return Faults{{fmt::format("{}: {}", layer.name, part.failure().what)}};
-      wheel.layers.push_back({std::move(layer.name), std::move(layer.shape), part->surface, part->parts});
-    }
-    return wheel;
+    auto wheel = fitted_wheel(input.source, input.shape, title(input), accuracy);
+    if (!wheel) return wheel.failure();
+    fmt::print("{:<16} {}\n{}", "wheel", wheel->model.title, text(wheel->whole));
+    warn_of_pieces(wheel->whole.report.bodies);
+    return std::move(wheel->model);
   }
 
   static std::string stem(const std::string& wheel, std::string layer) {
@@ -254,8 +212,6 @@ class ExportCommand : public Subcommand {
     const std::string own = input.source.title.empty() ? input.name : input.source.title;
     return fmt::format("{}, {}", without_control_characters(own), input.which);
   }
-
-  static std::string program() { return fmt::format("wheelwright {}", version()); }
 
   static void warn_of_pieces(int bodies) {
     if (bodies > 1) print_warning(stderr, fmt::format("the material is not connected: {} pieces", bodies));

@@ -6,45 +6,12 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
-#include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
-#include "wheelwright/run/observers/run_report.h"
-#include "wheelwright/run/results/final_results.h"
-#include "wheelwright/run/results/given_wheel.h"
-#include "wheelwright/run/results/summarized_run.h"
-#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/run/observers/solved_report.h"
 
 namespace wheelwright {
 namespace {
-
-/// Solves the given wheel and the last shape of a run again, for results that its folder does not keep.
-template <int dim>
-Expected<PageRun> report_of_run(const RunInput<dim>& run) {
-  const auto study = make_study<dim>(run.source);
-  if (!study) return study.failure();
-  const auto made = make_solver(rolling_model<dim>(with_levels_of_results(run.source)));
-  if (!made) return made.failure();
-  const StateSolver<dim>& solver = **made;
-  const auto solved = [&](const LevelSet<dim>& shape, const StateSolver<dim>& by) {
-    return by.states(shape, distinct_positions(by, study->load_cases, shape), print_contact_progress());
-  };
-  const Study<dim> given = given_study(*study, run.checkpoint.initial);
-  const auto made_for_given = make_solver(rolling_model<dim>(with_levels_of_results(given.source)));
-  if (!made_for_given) return made_for_given.failure();
-  const OptimizationState<dim>& last = run.checkpoint.state;
-  const auto last_states = solved(last.shape, solver);
-  if (!last_states) return last_states.failure();
-  const auto summary = summarized_run(
-      *study, given, run.checkpoint.initial,
-      objective_as_given(given, run.checkpoint.initial, print_contact_progress()),
-      described(given.source, **made_for_given, given.load_cases, given.initial,
-                material_measure(given.initial), solved(given.initial, **made_for_given)),
-      last, described(run.source, solver, study->load_cases, last.shape, last.measure, last_states));
-  const SolvedShape<dim> shape{&last.shape, &solver, last_states->get()};
-  return page_run(report_of_results<dim>(run.folder, run.source, summary, shape, shown_wheel(shape),
-                                         run.checkpoint.finished));
-}
 
 /// The page of an exploration or a sweep; its points link to the reports of the designs.
 std::optional<std::filesystem::path> page_of_designs(const std::filesystem::path& folder) {
@@ -83,7 +50,11 @@ class ReportCommand : public Subcommand {
       inputs.push_back(*std::move(input));
     }
     for (const AnyRun& input : inputs) {
-      auto report = std::visit([](const auto& run) { return report_of_run(run); }, input);
+      auto report = std::visit(
+          [](const auto& run) {
+            return solved_page_run(run.folder, run.source, run.checkpoint, print_contact_progress());
+          },
+          input);
       if (!report) return report_failure(name(), report.failure());
       runs.push_back(*std::move(report));
     }
