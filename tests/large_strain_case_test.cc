@@ -25,7 +25,7 @@ positions = 2
 [[holes.ring]]
 count = 16
 center_radius = 0.27
-radius = 0.03
+radius = 0.025
 [grid]
 radial_cells = 7
 angular_cells = 96
