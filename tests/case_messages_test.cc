@@ -135,6 +135,87 @@ TEST(CaseWarnings, OfTemperaturesThatVaryOverTheWidth) {
   EXPECT_EQ(told(), "");
 }
 
+// In a freezer; the rim is warmer than the air, or colder.
+TEST(CaseMessages, TemperaturesMayBeBelowZeroButNotBelowWhatWarmsTheWheel) {
+  const auto wheel = [](const char* rim, const char* bound) {
+    return fmt::format(
+        "[load]\nspeed = 5\n[material]\ndensity = 1100\nloss_factor = 0.1\nconductivity = 0.3\n"
+        "[[holes.ring]]\ncount = 16\ncenter_radius = 0.26\nradius = 0.03\n"
+        "[heat]\nambient_temperature = -30\nconvection = 20\n{}"
+        "[[expect]]\nquantity = \"peak_temperature\"\nvalue = -10\n"
+        "[[constraint]]\nquantity = \"peak_temperature\"\n{}",
+        rim, bound);
+  };
+  const auto accepts = [&](const char* rim, const char* bound) {
+    const std::string problems = problems_of(wheel(rim, bound));
+    EXPECT_TRUE(problems.empty() || problems.find("no shape can meet it: heat.") != std::string::npos)
+        << problems;
+    return problems.empty();
+  };
+  const char *insulated = "", *warm = "rim_temperature = -5\n", *cold = "rim_temperature = -40\n";
+  EXPECT_TRUE(accepts(insulated, "at_most = -29"));
+  EXPECT_TRUE(accepts(insulated, "at_least = 0"));
+  EXPECT_TRUE(accepts(insulated, "at_least = -40"));
+  EXPECT_FALSE(accepts(insulated, "at_most = \"-30 deg C\""));
+  EXPECT_FALSE(accepts(insulated, "equals = -31"));
+  EXPECT_FALSE(accepts(warm, "at_most = -6"));
+  EXPECT_TRUE(accepts(warm, "at_most = -4"));
+  EXPECT_TRUE(accepts(cold, "at_most = -35")) << "the cold rim may cool all of the wheel";
+  EXPECT_FALSE(accepts(cold, "at_most = -40"));
+  EXPECT_NE(problems_of(wheel(cold, "at_most = -40")).find("heat.rim_temperature = -40"), std::string::npos);
+  // A layer that does not reach the rim may be colder than it.
+  const std::string layer =
+      "layer = \"tyre\"\n[[material.layer]]\nname = \"tyre\"\ninner_radius = 0.3\n"
+      "youngs_modulus = 2e8\npoissons_ratio = 0.35\n"
+      "density = 1100\nloss_factor = 0.1\nconductivity = 0.3\n";
+  EXPECT_TRUE(accepts(warm, ("at_most = -6\n" + layer).c_str()));
+  EXPECT_FALSE(accepts(warm, ("at_most = -30\n" + layer).c_str()));
+}
+
+TEST(CaseMessages, NameThePairOfALossFactor) {
+  const auto of = [](const std::string& table) {
+    return problems_of("[load]\nspeed = 5\n[material]\ndensity = 1100\nloss_factor = " + table + "\n");
+  };
+  EXPECT_NE(of("[[1, 0.1], [10, 0.2], [100, 700.0]]").find("pair 3: the loss factor 700.0"),
+            std::string::npos);
+  EXPECT_NE(of("[[1, 0.1], [-10, 0.2]]").find("pair 2: the frequency -10"), std::string::npos);
+  EXPECT_NE(of("[[1, 0.1], [10]]").find("entry 2, [10]"), std::string::npos);
+  EXPECT_NE(of("[[1, 0.1], [10, 0.2], [5, 0.3]]").find("pair 3"), std::string::npos);
+  EXPECT_EQ(of("[[1, 0.1], [10, 0.2]]"), "");
+}
+
+TEST(CaseWarnings, OfConstantsOfHeatWithoutASectionHeat) {
+  Case c;
+  const auto is_told = [&](const std::string& key) {
+    return std::ranges::any_of(warnings(c), [&](const std::string& text) {
+      return text.starts_with(key) && text.find("no temperature is computed") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(is_told(""));
+  c.layers = {MaterialLayer{}};
+  c.layers[0].inner_radius = 0.3;
+  c.layers[0].maximum_temperature = 60;
+  EXPECT_TRUE(is_told("material.layer[1].maximum_temperature"));
+  c.material.conductivity = 0.3;
+  EXPECT_TRUE(is_told("material.conductivity"));
+  c.heat.convection = 10;
+  EXPECT_FALSE(is_told(""));
+}
+
+TEST(CaseReport, TellsThatTheObjectiveIsASumOverTheLoadCases) {
+  Case c;
+  const auto is_told = [&] {
+    return derived_report(c).find("weighted sum over the load cases") != std::string::npos;
+  };
+  EXPECT_FALSE(is_told());
+  c.load.cases = {{.name = "rolling"}, {.name = "kerb"}};
+  EXPECT_TRUE(is_told());
+  c.objective.minimize = built_in("peak_von_mises");
+  EXPECT_TRUE(is_told());
+  c.objective.minimize = built_in("volume_fraction");
+  EXPECT_FALSE(is_told());
+}
+
 TEST(CaseMessages, BothPlacesOfANestedHoleAreReported) {
   const std::string rings =
       "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n"

@@ -672,6 +672,22 @@ TEST_F(CommandLine, PicturesAreDrawnAtTheGivenInterval) {
     }
 }
 
+/// The fatigue of the shapes is that of all load cases, as in the pictures of the result.
+TEST_F(CommandLine, ShapesHaveTheFatigueOfAllLoadCases) {
+  const auto fields_of = [&](const std::string& run, const std::string& share) {
+    std::ofstream(folder() / "c.toml")
+        << small_case(0) +
+               "[material]\nfatigue_measure = \"principal_strain\"\nfatigue_strain = 0.02\nfatigue_exponent "
+               "= 4\n"
+               "[[load.case]]\nname = \"rolling\"\n" +
+               share + "[[load.case]]\nname = \"kerb\"\nmass = 400\n" + share;
+    EXPECT_EQ(wheelwright("run c.toml --output " + run, folder()).code, exit_done);
+    return content(folder() / run / "shapes/shape_0000.vtu");
+  };
+  EXPECT_NE(fields_of("first", "").find("\"fatigue_utilization"), std::string::npos);
+  EXPECT_NE(fields_of("all", "distance_share = 0.5\n").find("\"fatigue_of_all_loads"), std::string::npos);
+}
+
 TEST_F(CommandLine, AnalyzeWritesOnlyToAGivenFolder) {
   const std::string analyze =
       "analyze " + path_of_case("cases/holes16.toml") + " --positions 3 --loads 3000,1000,1000";

@@ -99,6 +99,37 @@ TEST(ValueWithError, LeavesOutWhatRoundingHides) {
   EXPECT_EQ(text_with_error(0, 0), "0");
 }
 
+TEST(ValueWithError, OfALifeIsARangeByAFactor) {
+  const auto life = [](double value, double error) {
+    return text_with_error(value, error, UnitKind::distance);
+  };
+  EXPECT_EQ(life(120, 360), "120 (30 to 480)");  // a factor of 4
+  EXPECT_EQ(life(1.23e6, 1.23e6), "1.2e+06 (620000 to 2.5e+06)");
+  EXPECT_EQ(life(120, 3), "120 +- 3");
+  EXPECT_EQ(life(120, 0), "120");
+  EXPECT_EQ(text_with_error(120, 360, UnitKind::force), text_with_error(120, 360));
+}
+
+TEST(DiscretizationError, OfAPowerIsThatOfItsLogarithm) {
+  const double r = 2, u = 0.3, finer = 0.33, k = 9;
+  const auto life = [&](double utilization) { return 1e6 * std::pow(utilization, -k); };
+  const double relative = k * discretization_error(std::log(u), std::log(finer), r, Converges::as_an_extreme),
+               error = discretization_error(life(u), life(finer), r, Converges::as_a_power);
+  EXPECT_NEAR(1 + error / life(u), std::exp(relative), 1e-9 * std::exp(relative));
+  EXPECT_NEAR(1 + error_on_finer_grid(life(u), life(finer), r, Converges::as_a_power) / life(finer),
+              std::exp(relative / r), 1e-9 * std::exp(relative / r));
+  EXPECT_EQ(discretization_error(5, 5, r, Converges::as_a_power), 0);
+}
+
+TEST(ComparisonTable, HasRangesOfLivesAndDifferencesOfTemperatures) {
+  ComparedRow life{"fatigue life [km]", {20.0, 120.0}, {0.0, 360.0}},
+      temperature{"peak temperature [deg C]", {-1.0, 2.5}};
+  life.kind = UnitKind::distance;
+  temperature.kind = UnitKind::temperature;
+  EXPECT_NE(comparison_table({"a", "b"}, {life}).find(" 120 (30 to 480) "), std::string::npos);
+  EXPECT_NE(comparison_table({"a", "b"}, {temperature}).find("+3.50 K"), std::string::npos);
+}
+
 TEST(ComparisonTable, MarksChangesThatTheErrorsMayExplain) {
   const ComparedRow small{"run-out", {1.0, 1.01}, {0.004, 0.007}},
       clear{"travel", {1.0, 1.1}, {0.004, 0.007}}, unknown{"mass", {1.0, 1.01}};

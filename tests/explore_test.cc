@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <thread>
 
@@ -331,6 +332,38 @@ TEST(Sweep, HoldsEveryCombinationOnce) {
       {{"load.mass", std::vector<double>(40, 1)}, {"load.torque", std::vector<double>(40, 1)}}));
 }
 
+TEST(Sweep, OfAShareOfTheDistanceKeepsTheProportionsOfTheOthers) {
+  const Case c = case_of(usual_wheel + R"(
+[material]
+fatigue_measure = "principal_strain"
+fatigue_strain = 0.02
+fatigue_exponent = 4
+[[load.case]]
+name = "rolling"
+distance_share = 0.5
+[[load.case]]
+name = "kerb"
+distance_share = 0.1
+[[load.case]]
+name = "corner"
+distance_share = 0.4
+)");
+  const std::string first = "load.case[1].distance_share", second = "load.case[2].distance_share";
+  const auto expect_shares = [](const Design& design, const std::array<double, 3>& expected) {
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      EXPECT_NEAR(*design.source.load.cases[k].distance_share, expected[k], 1e-12) << design.text;
+  };
+  const auto designs = sweep_designs(c, {}, "test.toml", {{first, {0.9, 1}}});
+  ASSERT_TRUE(designs) << designs.failure().text;
+  expect_shares((*designs)[0], {0.9, 0.02, 0.08});
+  expect_shares((*designs)[1], {1.0, 0.0, 0.0});
+  const auto both = sweep_designs(c, {}, "test.toml", {{first, {0.3}}, {second, {0.6}}});
+  ASSERT_TRUE(both) << both.failure().text;
+  expect_shares(both->front(), {0.3, 0.6, 0.1});
+  EXPECT_FALSE(sweep_designs(c, {}, "test.toml", {{first, {0.7}}, {second, {0.6}}}))
+      << "more than the distance";
+}
+
 TEST(Sweep, FitsTheSizesOfTheGridThatTheFileDoesNotGive) {
   const Case c =
       case_of("[[holes.ring]]\ncount = 36\ncenter_radius = 0.27\nradius = 0.015\n[wheel]\nsectors = 4\n");
@@ -346,6 +379,31 @@ TEST(Sweep, FitsTheSizesOfTheGridThatTheFileDoesNotGive) {
       sweep_designs(c, {}, "test.toml", {{"grid.angular_cells", {384, 432}}, {"wheel.sectors", {4}}});
   ASSERT_TRUE(swept) << swept.failure().text;
   EXPECT_EQ(swept->back().source.grid.angular_cells, 432);
+}
+
+// The lines are divided after spaces and the marks of keys, where no space is lost.
+TEST(ParetoPicture, ShowsWholeCaptions) {
+  std::vector<RankedDesign> designs(2);
+  const std::string key = "constraint[1].at_least = 320 N/mm",
+                    more = ", load.case[2].distance_share = 0.123456789, a.b = 1";
+  designs[0].design.text = "9 ellipses";
+  designs[1].design.text = key + more;
+  for (RankedDesign& design : designs) {
+    design.front = 1;
+    design.outline = "M0 0L1 0L0 1Z";
+  }
+  const std::string svg = pareto_svg(designs, ranked_quantities(), "title");
+  std::string captions;
+  const std::regex caption("<text class=\"small middle\"[^>]*>([^<]*)</text>");
+  for (std::sregex_iterator match(svg.begin(), svg.end(), caption), end; match != end; ++match)
+    captions += (*match)[1].str() + "|";
+  const auto joined = [](std::string text, const char* part) {
+    for (std::size_t i; (i = text.find(part)) != std::string::npos;) text.erase(i, std::string(part).size());
+    return text;
+  };
+  EXPECT_EQ(joined(captions, "|"), joined("9 ellipses" + key + more, ", "));
+  for (std::size_t from = 0, to; (to = captions.find('|', from)) != std::string::npos; from = to + 1)
+    EXPECT_LE(to - from, 22u) << captions.substr(from, to - from);
 }
 
 class Exploration : public TemporaryFolder {

@@ -17,6 +17,7 @@
 #include "wheelwright/output/report/fatigue_field.h"
 #include "wheelwright/output/report/numbers_json.h"
 #include "wheelwright/output/report/rolling_report.h"
+#include "wheelwright/output/report/turn_peaks.h"
 #include "wheelwright/run/study/case_report.h"
 #include "wheelwright/run/study/study.h"
 
@@ -299,6 +300,14 @@ TEST(FatigueDamage, OfACaseIsInTablesAndFiles) {
   for (const char* row : {"fatigue life in all load cases", "fatigue utilization of tyre in all load cases",
                           "fatigue life of tyre in heavy"})
     EXPECT_NE(table.find(row), std::string::npos) << row;
+
+  // Pictures mark the same place and number.
+  const auto marked = turn_peaks(wheel);
+  EXPECT_EQ(marked.fatigue->value, found.worst.utilization);
+  EXPECT_NEAR(std::hypot(marked.fatigue->place[0], marked.fatigue->place[1]), found.worst.place[0], 1e-12);
+  EXPECT_EQ(turn_peaks(wheel.others[0]).fatigue->value,
+            (*wheel.others[0].loaded->fatigue)->worst.utilization);
+  EXPECT_FALSE(marked.temperature);
 
   const auto of_shape = shape_json<2>({0, 1.0, wheel}, "");
   EXPECT_EQ(of_shape["damage_by_load_case of tyre"]["heavy"], found.by_layer[1].by_case[1]);

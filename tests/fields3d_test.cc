@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <regex>
 #include <set>
 
 #include "wheelwright/mechanics/state/axle_height.h"
@@ -343,6 +344,43 @@ TEST(LitWheel, StandsOnTheGroundAndNothingIsBelow) {
     for (const Vec<3>& x : points) lowest = std::min(lowest, x[1]);
     EXPECT_NEAR(lowest, -grid.outer_radius, 2e-5);
   }
+}
+
+/// The ring about the peak of a turn stands where its point is drawn, also inside the material or behind it.
+TEST(LitWheel, MarksTheProjectionOfAPeak) {
+  const auto& [solver, state] = solved();
+  const PositionFields<3> fields = position_fields(*solver, *state, 1);
+  const PolarGrid<3>& grid = solver->model().grid;
+  const SurfaceMesh surface = material_surface(asymmetric_shape(grid), 2, 1);
+  DeformedPicture<3> picture{};
+  picture.displacement = fields.displacement;
+  picture.magnification = 20;
+  picture.contact_azimuth = fields.ground_azimuth;
+  picture.scalar = {"height", "m", vertical_field<3>(fields.displacement, fields.ground_azimuth)};
+  const auto points = standing_on_the_ground(
+      displaced(surface.points, field_points(surface, fields.lattice).values({"u", "m", fields.displacement}),
+                fields.lattice, picture),
+      grid, fields.ground_azimuth);
+  int n_tried = 0;
+  for (std::size_t k = 0; k < points.size(); k += points.size() / 40) {
+    if (std::hypot(surface.points[k][0], surface.points[k][1]) < 0.999 * grid.outer_radius) continue;
+    ++n_tried;
+    picture.peak = DrawnPeak<3>{surface.points[k], 0.017};
+    picture.is_peak_projected = false;
+    EXPECT_EQ(deformed_svg(surface, fields.lattice, picture).find("<circle"), std::string::npos);
+    picture.is_peak_projected = true;
+    const std::string whole = deformed_svg(surface, fields.lattice, picture);
+    const std::string svg = whole.substr(std::min(whole.find("<circle"), whole.size()));  // after the bitmap
+    static const std::regex ring("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"6\"");
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(svg, match, ring));
+    const Vec<3> seen = wheel_camera(grid).seen(points[k]);
+    EXPECT_NEAR(std::stod(match[1]), DeformedLayout::margin + 320 * (1 + seen[0]), 0.2);
+    EXPECT_NEAR(std::stod(match[2]), DeformedLayout::top + 320 * (1 - seen[1]), 0.2);
+    EXPECT_NE(svg.find("peak 17 mm"), std::string::npos);
+    EXPECT_NE(svg.find("ring: its projection"), std::string::npos);
+  }
+  EXPECT_GT(n_tried, 2);
 }
 
 // --- A wheel that leans ---------------------------------------------------------------------------------

@@ -365,6 +365,37 @@ TEST_F(ResultsOfARun, NearZeroAreNotShownInPercent) {
   EXPECT_EQ(objective_told(1e5).find('%'), std::string::npos) << objective_told(1e5);
 }
 
+TEST_F(ResultsOfARun, TellThatTheObjectiveIsASumOverLoadCases) {
+  RunSummary<2> summary =
+      results(study("[[load.case]]\nname = \"straight\"\n[[load.case]]\nname = \"kerb\"\n"), {}).summary;
+  EXPECT_TRUE(summary_table(summary).find("objective, weighted sum over the load cases [J/m]") !=
+              std::string::npos)
+      << summary_table(summary);
+  summary.minimized = "peak_temperature";
+  summary.objective_kind = UnitKind::temperature;
+  summary.objective = shown_unit(UnitKind::temperature, 2);
+  summary.before.objective = 0.5;
+  summary.after.objective = -1.0;
+  EXPECT_NE(
+      summary_table(summary).find("objective: peak_temperature, weighted sum over the load cases [deg C]"),
+      std::string::npos);
+  EXPECT_NE(gains(summary).find("peak_temperature 1.5 K lower"), std::string::npos) << gains(summary);
+  EXPECT_EQ(summary_table(results(study(""), {}).summary).find("weighted sum"), std::string::npos);
+}
+
+TEST(Expectations, OfTemperaturesMayBeZeroOrLess) {
+  Expectation expected;
+  expected.quantity = built_in("peak_temperature");
+  expected.margin = 0.1;
+  expected.value = -20;
+  EXPECT_TRUE((Finding{expected, -19.0}.met()));
+  EXPECT_FALSE((Finding{expected, -17.9}.met()));
+  expected.value = 0;
+  EXPECT_TRUE((Finding{expected, -0.09}.met()));
+  EXPECT_FALSE((Finding{expected, 0.11}.met()));
+  EXPECT_NE((Finding{expected, 0.0}.text().find("0 within 0.1 deg C")), std::string::npos);
+}
+
 TEST_F(ResultsOfARun, ReportWhyAnExpectationIsUnknown) {
   const Study<2> study = this->study(
       "[[load.case]]\nname = \"straight\"\n[[load.case]]\nname = \"kerb\"\nmass = 400\n"

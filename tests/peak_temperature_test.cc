@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/support.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/mechanics/heat/heat_source.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
@@ -326,6 +327,18 @@ TEST(PeakTemperature, KeysMustSayWhatTakesTheHeat) {
                      "center_radius = 0.26\nradius = 0.03\n",
                      known, rolling),
             1);
+}
+
+// The air does not reach a tread that is bonded to a ring.
+TEST(PeakTemperature, OfABushingHasNoConvectionAtItsTread) {
+  Case c;
+  c.heat.convection = 20;
+  EXPECT_EQ(cooling(c)->tread, 20);
+  c.contact.with = Counterpart::ring;
+  EXPECT_EQ(cooling(c)->tread, 0);
+  EXPECT_EQ(cooling(c)->holes, 20);
+  c.heat.tread_convection = 500;
+  EXPECT_EQ(cooling(c)->tread, 500);
 }
 
 }  // namespace

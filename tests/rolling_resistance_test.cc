@@ -19,6 +19,7 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/mechanics/rolling/half_width_solver.h"
 #include "wheelwright/mechanics/state/turn_harmonics.h"
+#include "wheelwright/mechanics/state/turn_losses.h"
 #include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/quantities/analysis/rolling_losses.h"
 #include "wheelwright/quantities/functionals/quantities.h"
@@ -395,6 +396,12 @@ TEST(RollingResistance, IsThatOfAnyOtherSectorAndOfTheImage) {
   const double here = turned(0, 1);
   EXPECT_NEAR(turned(3 * column, 1), here, 1e-9 * here);
   EXPECT_NEAR(turned(a, -1), here, 1e-9 * here);
+}
+
+TEST(RollingResistance, LeavesNothingOutWhereTheLastHarmonicsAreRounding) {
+  EXPECT_EQ(resistance_beyond(std::vector<double>{0, 1, 1e-30, -5.8e-30}), 0);  // a bushing has one harmonic
+  EXPECT_EQ(resistance_beyond(std::vector<double>{0, 1, 0.5, 0.25}), 0.75);
+  EXPECT_EQ(resistance_beyond(std::vector<double>{0, 0, 0, 0}), 0);
 }
 
 // Positions of a symmetric wheel that stand for their images do not suffice; rolling_losses() solves all.

@@ -30,6 +30,9 @@ test("a number and its error have the same digits", () => {
   assert.equal(formats.withError(7742.61, 23), "7740 \u00b1 30");
   assert.equal(formats.withError(-1.23456, 0.0131), "\u22121.235 \u00b1 0.014");
   assert.equal(formats.withError(9.99, 0.0996), "9.99 \u00b1 0.10");
+  assert.equal(formats.rowText({ unit: "km", factor: 1e-3 }, 120e3, 360e3), "120 (30 to 480)");  // a life, by a factor of 4
+  assert.equal(formats.rowText({ unit: "km", factor: 1e-3 }, 120e3, 3e3), "120 \u00b1 3");
+  assert.equal(formats.rowText({ unit: "N", factor: 1 }, 120, 360), formats.withError(120, 360));
   for (const error of [0, 1e-9, NaN, undefined]) assert.equal(formats.withError(2943, error), formats.shown(2943));
 });
 

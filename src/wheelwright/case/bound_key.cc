@@ -53,6 +53,15 @@ struct FieldBinder {
   Field operator()(const QuantityField<Struct>& f) const { return QuantityField<BoundTable>{at(f.member)}; }
 };
 
+/// Its values are those of a quantity of this kind.
+void set_range(BoundKey& key, UnitKind kind) {
+  std::visit(
+      [&](auto& field) {
+        if constexpr (requires { field.range; }) field.range = values_of(kind);
+      },
+      key.field);
+}
+
 }  // namespace
 
 template <class Struct>
@@ -62,6 +71,9 @@ BoundKeys bound(const std::vector<Key<Struct>>& keys, Struct& table) {
   for (const Key<Struct>& key : keys)
     result.push_back({key.name, key.unit, std::visit(FieldBinder<Struct>{table}, key.field), key.meaning,
                       key.presence, key.instead_of});
+  if constexpr (requires { table.quantity; })
+    for (BoundKey& key : result)
+      if (key.unit == unit_of_quantity) set_range(key, kind(table.quantity));
   return result;
 }
 

@@ -39,7 +39,8 @@ struct ChoiceField<BoundTable> {
 using BoundKey = Key<BoundTable>;
 using BoundKeys = std::vector<BoundKey>;
 
-/// The keys and the table must outlive the result.
+/// The keys and the table must outlive the result. Keys of the unit unit_of_quantity accept the values_of()
+/// the quantity that the table has now.
 template <class Struct>
 BoundKeys bound(const std::vector<Key<Struct>>& keys, Struct& table);
 

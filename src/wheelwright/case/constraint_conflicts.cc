@@ -94,6 +94,25 @@ void check_bounds(const Case& c, std::size_t i, Conflicts& found) {
       refuse({key}, "more than the whole ring", "use a fraction below 1");
 }
 
+/// Upper bounds of temperatures that no shape can meet: the losses only warm the wheel, and the rim belongs
+/// to it.
+void check_temperature(const Case& c, std::size_t i, Conflicts& found) {
+  const auto cooled = cooling(c);
+  const auto upper = upper_bound(c, i);
+  if (!c.constraints[i].quantity->depends_on_heat || !cooled || !upper) return;
+  const auto part = quantity_of(c, c.constraints[i])->part;
+  const auto rim = cooled->rim_temperature;
+  const bool has_rim = !part || part->name == placed_materials(c).front().name,
+             is_below_rim = rim && has_rim && upper->value < *rim;
+  if (!is_below_rim && upper->value > cooled->coldest()) return;
+  const bool is_of_rim = is_below_rim || (rim && *rim < cooled->ambient_temperature);
+  const CaseKey key = is_of_rim ? key_of(&Heat::rim_temperature) : key_of(&Heat::ambient_temperature);
+  found.push_back({{upper->key, key},
+                   fmt::format("no shape can meet it: {} = {:g} deg C, and the losses only warm the wheel",
+                               key.path(), is_of_rim ? *rim : cooled->ambient_temperature),
+                   fmt::format("use more than that, or a lower {}", key.path())});
+}
+
 /// Quantities that a run cannot bound.
 void check_quantity(const Case& c, std::size_t i, Conflicts& found) {
   const Constraint& constraint = c.constraints[i];
@@ -120,6 +139,7 @@ void constraint_conflicts(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.constraints.size(); ++i) {
     check_quantity(c, i, found);
     check_bounds(c, i, found);
+    check_temperature(c, i, found);
   }
   check_bounds_together(c, found);
   if (!holds_volume(c) && c.volume.target)

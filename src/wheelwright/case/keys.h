@@ -188,6 +188,8 @@ struct QuantityField {
 /// The unit of a key whose value belongs to its section's `quantity`: a plain number is in SI units, in 2D
 /// per metre of width; a number with a unit is for the whole wheel.
 inline constexpr std::string_view unit_of_quantity = "SI";
+/// The values of such a key: temperatures [deg C] lie above absolute zero, all others above 0.
+constexpr Range values_of(UnitKind kind) { return above(kind == UnitKind::temperature ? -273.15 : 0, 1e15); }
 
 enum class Presence { has_default, required };
 

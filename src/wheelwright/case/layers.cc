@@ -313,9 +313,10 @@ bool has_conductivity(const Case& c) { return all_have(c, {}, &PlacedMaterial::c
 
 std::optional<Cooling> cooling(const Case& c) {
   const double everywhere = c.heat.convection.value_or(0);
+  const bool is_bonded = c.contact.with == Counterpart::ring;  // the air does not reach the tread
   Cooling cooling{.ambient_temperature = c.heat.ambient_temperature,
                   .rim_temperature = c.heat.rim_temperature,
-                  .tread = c.heat.tread_convection.value_or(everywhere),
+                  .tread = c.heat.tread_convection.value_or(is_bonded ? 0 : everywhere),
                   .holes = c.heat.hole_convection.value_or(everywhere),
                   .side_faces = c.heat.side_convection.value_or(everywhere)};
   if (c.wheel.dimension == 3 && c.wheel.side_faces == SideFaces::symmetric) cooling.side_faces = 0;

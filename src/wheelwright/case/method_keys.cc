@@ -38,7 +38,9 @@ const Section<Heat>& heat_section() {
           convection_key(&Heat::convection, "convection", "none",
                          "coefficient of convection: heat to the air by area and rise of the "
                          "temperature, the mean over a turn, on all surfaces without one of their own"),
-          convection_key(&Heat::tread_convection, "tread_convection", "heat.convection", "that of the tread"),
+          convection_key(&Heat::tread_convection, "tread_convection",
+                         "heat.convection; 0 with contact.with = \"ring\"",
+                         "that of the tread; that of a bonded one is to a ring as warm as the air"),
           convection_key(&Heat::hole_convection, "hole_convection", "heat.convection",
                          "that of the edges of the holes"),
           convection_key(&Heat::side_convection, "side_convection", "heat.convection",

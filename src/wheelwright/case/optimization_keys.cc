@@ -16,8 +16,10 @@ const Section<Objective>& objective_section() {
       .keys = {
           {.name = "minimize",
            .field = QuantityField<Objective>{&Objective::minimize},
-           .meaning = "what is minimized; objective: the weighted sum; any other quantity replaces it, and "
-                      "the weights then only select the functionals in history.csv"},
+           .meaning =
+               "what is minimized; objective: the weighted sum; any other quantity replaces it, and "
+               "the weights then only select the functionals in history.csv. Of several load cases it is "
+               "the weighted sum of each one's"},
           {.name = "layer",
            .field = TextField<Objective>{&Objective::layer, "the whole ring"},
            .meaning = "the layer whose quantity `minimize` is, by its name"},
@@ -104,6 +106,7 @@ const SectionArray<ObjectiveTerm>& objective_term_sections() {
 }
 
 const SectionArray<Constraint>& constraint_sections() {
+  static constexpr Range positive = values_of(UnitKind::energy);
   static const SectionArray<Constraint> sections{
       .parent = "",
       .name = "constraint",
@@ -123,17 +126,18 @@ const SectionArray<Constraint>& constraint_sections() {
            .meaning = "the layer whose quantity it is, by its name; \"material\" for what lies in none"},
           {.name = "at_least",
            .unit = unit_of_quantity,
-           .field = OptionalNumberField<Constraint>{&Constraint::at_least, above(0, 1e15), "no such bound"},
+           .field = OptionalNumberField<Constraint>{&Constraint::at_least, positive, "no such bound"},
            .meaning = "lower bound. A plain number is in SI units, in 2D per metre of width for forces, "
                       "energies, masses and stiffnesses, as in history.csv. With a unit, as in \"6000 "
-                      "N/mm\", it applies to the whole wheel, as in tables"},
+                      "N/mm\", it applies to the whole wheel, as in tables. A temperature may be any above "
+                      "absolute zero"},
           {.name = "at_most",
            .unit = unit_of_quantity,
-           .field = OptionalNumberField<Constraint>{&Constraint::at_most, above(0, 1e15), "no such bound"},
+           .field = OptionalNumberField<Constraint>{&Constraint::at_most, positive, "no such bound"},
            .meaning = "upper bound"},
           {.name = "equals",
            .unit = unit_of_quantity,
-           .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
+           .field = OptionalNumberField<Constraint>{&Constraint::equals, positive, "no such bound"},
            .meaning = "the required value, instead of bounds"},
           {.name = "over",
            .field = choice<&Constraint::over>({"mean", "worst", "each"}),

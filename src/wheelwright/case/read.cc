@@ -280,15 +280,27 @@ std::optional<Complaint> read_points(const Reading& reading, const toml::node& n
 /// A table over the frequency.
 std::optional<Complaint> read_loss_factors(const toml::array& array,
                                            const LossFactorField<BoundTable>& field) {
-  const auto not_a_table = wrong_type("a number, or a list of [frequency in Hz, number]",
-                                      "write it as 0.1 or as [[1, 0.05], [100, 0.12]]");
   std::vector<LossFactor::Point> table;
+  const auto read = [&](const char* what, const toml::node& number, std::string_view unit, const Range& range,
+                        double& out) {
+    auto complaint = read_number(number, unit, range, out);
+    if (complaint)
+      complaint->problem =
+          fmt::format("pair {}: the {} {}: {}", table.size(), what, value_text(number), complaint->problem);
+    return complaint;
+  };
   for (const toml::node& element : array) {
     const toml::array* pair = element.as_array();
-    if (!pair || pair->size() != 2) return not_a_table;
     auto& [frequency, value] = table.emplace_back();
-    if (auto complaint = read_number((*pair)[0], "Hz", loss_frequencies, frequency)) return complaint;
-    if (auto complaint = read_number((*pair)[1], "", field.range, value)) return complaint;
+    if (!pair || pair->size() != 2)
+      return Complaint{
+          Kind::wrong_type,
+          fmt::format("must be a number, or a list of pairs; entry {}, {}, is not a pair [frequency in "
+                      "Hz, number]",
+                      table.size(), value_text(element)),
+          "write it as 0.1 or as [[1, 0.05], [100, 0.12]]"};
+    if (auto complaint = read("frequency", (*pair)[0], "Hz", loss_frequencies, frequency)) return complaint;
+    if (auto complaint = read("loss factor", (*pair)[1], "", field.range, value)) return complaint;
   }
   if (table.size() < fewest_loss_factors || table.size() > most_points)
     return Complaint{Kind::out_of_range,
@@ -298,8 +310,8 @@ std::optional<Complaint> read_loss_factors(const toml::array& array,
   const auto is_later = [](const LossFactor::Point& a, const LossFactor::Point& b) { return a[0] >= b[0]; };
   if (const auto unsorted = std::ranges::adjacent_find(table, is_later); unsorted != table.end())
     return Complaint{Kind::out_of_range,
-                     fmt::format("the frequency {} Hz follows {} Hz", number_text((*(unsorted + 1))[0]),
-                                 number_text((*unsorted)[0])),
+                     fmt::format("pair {}: the frequency {} Hz follows {} Hz", unsorted - table.begin() + 2,
+                                 number_text((*(unsorted + 1))[0]), number_text((*unsorted)[0])),
                      "write the frequencies in ascending order"};
   field.member.value() = LossFactor(std::move(table));
   return {};
@@ -411,7 +423,7 @@ std::vector<std::string_view> key_names(const BoundKeys& keys) {
 
 void read_value(Reading& reading, const std::string& path, const toml::node& node, const BoundKey& key) {
   note(reading, path, node);
-  if (key.unit == unit_of_quantity && node.is_string()) return;  // see read_quantities()
+  if (key.unit == unit_of_quantity) return;  // see read_quantities()
   if (auto complaint = read_field_of(reading, node, key)) complain(reading, path, std::move(*complaint));
 }
 
@@ -529,7 +541,26 @@ void read_parent(Reading& reading, const toml::table& root, std::string_view nam
     read_table(reading, std::string(name), *table, {});
 }
 
-/// Quoted values of a section's `quantity`, whose units depend on other keys.
+/// A value of a section's `quantity`, whose range and units depend on other keys.
+void read_value_of_quantity(Reading& reading, const std::string& path, const toml::node& node, BoundKey key,
+                            UnitKind kind, const Wheel& wheel) {
+  const auto text = node.value_exact<std::string>();
+  const auto given = text ? value_with_unit(*text) : std::nullopt;
+  const auto value = given ? in_file_unit(*given, kind, wheel.dimension, wheel.width) : std::nullopt;
+  key.unit = unit(kind, wheel.dimension);
+  if (text && !given) {
+    complain(reading, path,
+             wrong_type("a number", fmt::format("write it without quotes, or with a unit: {}",
+                                                fmt::join(units_like(unit<3>(kind)), ", "))));
+  } else if (text && !value) {
+    complain(reading, path, unknown_unit(*given, units_like(unit<3>(kind))));
+  } else if (auto complaint = value ? read_field_of(reading, toml::value<double>(*value), key)
+                                    : read_field_of(reading, node, key)) {
+    complain(reading, path, std::move(*complaint));
+  }
+}
+
+/// The values of the quantities of a section.
 template <class Struct>
 void read_quantities(Reading& reading, const toml::table& root, const SectionArray<Struct>& section,
                      Case& c) {
@@ -537,23 +568,10 @@ void read_quantities(Reading& reading, const toml::table& root, const SectionArr
   auto& list = section.in(c);
   for (std::size_t i = 0; array && i < list.size(); ++i)
     for (const BoundKey& key : bound(section.keys, list[i])) {
-      const toml::table& table = *(*array)[i].as_table();
-      const auto text =
-          key.unit == unit_of_quantity ? table[key.name].template value_exact<std::string>() : std::nullopt;
-      if (!text) continue;
-      const std::string path = fmt::format("{}[{}].{}", section.path(), i + 1, key.name);
-      const auto given = value_with_unit(*text);
-      const UnitKind kind = wheelwright::kind(list[i].quantity);
-      const auto value = given ? in_file_unit(*given, kind, c.wheel.dimension, c.wheel.width) : std::nullopt;
-      if (!given) {
-        complain(reading, path,
-                 wrong_type("a number", fmt::format("write it without quotes, or with a unit: {}",
-                                                    fmt::join(units_like(unit<3>(kind)), ", "))));
-      } else if (!value) {
-        complain(reading, path, unknown_unit(*given, units_like(unit<3>(kind))));
-      } else if (auto complaint = read_field_of(reading, toml::value<double>(*value), key)) {
-        complain(reading, path, std::move(*complaint));
-      }
+      const toml::node* node = (*array)[i].as_table()->get(key.name);
+      if (key.unit == unit_of_quantity && node)
+        read_value_of_quantity(reading, fmt::format("{}[{}].{}", section.path(), i + 1, key.name), *node, key,
+                               kind(list[i].quantity), c.wheel);
     }
 }
 

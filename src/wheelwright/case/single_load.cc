@@ -38,4 +38,9 @@ std::vector<int> weighted_load_cases(const Case& c) {
   return result;
 }
 
+std::string sum_over_load_cases(const Case& c) {
+  if (c.load.cases.empty() || c.objective.minimize->of == Positions::none) return "";
+  return "weighted sum over the load cases";
+}
+
 }  // namespace wheelwright

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,10 @@ std::vector<SingleLoad> single_loads(const Case& c);
 
 /// The load cases that the objective contains.
 std::vector<int> weighted_load_cases(const Case& c);
+
+/// How the objective is made of load cases, in words: empty for one load, or if the objective depends on the
+/// shape alone.
+std::string sum_over_load_cases(const Case& c);
 
 /// Calls check(load, conflicts) for each load. Common conflicts are reported once.
 template <class Check>

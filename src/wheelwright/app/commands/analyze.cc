@@ -120,7 +120,8 @@ void write_fields(const std::filesystem::path& folder, const RollingReport& repo
   write_wheel_pictures(
       folder,
       {.prefix = "", .title = report.title, .width = report.width, .n_positions = solver.model().n_positions},
-      shape, states.domain(), most_stressed_fields(solver, states, all_loads));
+      shape, states.domain(), most_stressed_fields(solver, states, all_loads),
+      turn_peaks<dim>(report.fatigue, report.damage, report.heat));
 }
 
 std::string check_loads(const std::string& text) {

@@ -14,6 +14,7 @@ namespace {
 constexpr double frame_width = 560, frame_height = 360, left = 92, top = 56, bottom = 66, gap = 30;
 constexpr double panel_height = frame_height + bottom;
 constexpr double wheel_size = 92, wheels_left = left + frame_width + gap, wheels_width = 390;
+constexpr double line_height = 13;  // of captions
 constexpr int max_wheels = 8, wheels_per_row = 3;
 
 constexpr std::string_view style = R"(<style>
@@ -99,22 +100,57 @@ void draw_points(const Axis& x, const Axis& y, const std::vector<RankedDesign>& 
   }
 }
 
-/// The text of a design in at most two lines as wide as a wheel's place: before and after its first comma.
-std::vector<std::string> caption_lines(const std::string& text) {
+/// A text in lines as wide as a wheel's place, divided after spaces and the marks in names of keys.
+std::vector<std::string> divided(std::string_view text) {
   constexpr std::size_t most = 22;
-  const auto comma = text.find(", ");
-  std::vector<std::string> lines{text.substr(0, std::min(comma, most))};
-  if (comma != std::string::npos) lines.push_back(text.substr(comma + 2, most));
+  std::vector<std::string> lines;
+  while (text.size() > most) {
+    const auto mark = text.find_last_of(" ._", most - 1);
+    const std::size_t end = mark == std::string_view::npos ? most : mark + 1;
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  lines.emplace_back(text);
   return lines;
 }
 
-void draw_wheels(const std::vector<RankedDesign>& designs, std::string& svg) {
-  for (int i = 0; i < std::min(max_wheels, static_cast<int>(designs.size())); ++i) {
+/// The text of a design in lines as wide as a wheel's place; a part after a comma begins a line.
+std::vector<std::string> caption_lines(std::string_view text) {
+  std::vector<std::string> lines;
+  while (true) {
+    const auto comma = text.find(", ");
+    std::ranges::move(divided(text.substr(0, comma)), std::back_inserter(lines));
+    if (comma == std::string_view::npos) return lines;
+    text.remove_prefix(comma + 2);
+  }
+}
+
+/// The wheels beside the plots, and the captions below them.
+struct ShownWheels {
+  std::vector<std::vector<std::string>> captions;
+  double row_height;
+
+  explicit ShownWheels(const std::vector<RankedDesign>& designs) {
+    std::size_t n_lines = 3;
+    for (int i = 0; i < std::min(max_wheels, static_cast<int>(designs.size())); ++i) {
+      captions.push_back(caption_lines(designs[i].design.text));
+      n_lines = std::max(n_lines, captions.back().size());
+    }
+    row_height = wheel_size + line_height * static_cast<double>(n_lines) + 5;
+  }
+  double height() const {
+    const std::size_t n_rows = (captions.size() + wheels_per_row - 1) / wheels_per_row;
+    return static_cast<double>(n_rows) * row_height;
+  }
+};
+
+void draw_wheels(const std::vector<RankedDesign>& designs, const ShownWheels& wheels, std::string& svg) {
+  for (int i = 0; i < static_cast<int>(wheels.captions.size()); ++i) {
     const RankedDesign& one = designs[i];
     if (one.front != 1 || one.outline.empty()) continue;
     const int row = i / wheels_per_row, column = i % wheels_per_row;
     const double x = wheels_left + (column + 0.5) * wheels_width / wheels_per_row,
-                 y = top + row * (wheel_size + 44) + 0.5 * wheel_size;
+                 y = top + row * wheels.row_height + 0.5 * wheel_size;
     const auto path = [&](const char* style, const std::string& d) {
       return fmt::format("<path {} transform=\"translate({:.1f} {:.1f}) scale({})\" d=\"{}\"/>", style, x, y,
                          wheel_size / 100, d);
@@ -124,9 +160,9 @@ void draw_wheels(const std::vector<RankedDesign>& designs, std::string& svg) {
     svg +=
         fmt::format("<text class=\"number middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, y + 4, i + 1);
     double below = y + 0.5 * wheel_size;
-    for (const std::string& line : caption_lines(one.design.text))
-      svg += fmt::format("<text class=\"small middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, below += 13,
-                         escape_xml(line));
+    for (const std::string& line : wheels.captions[i])
+      svg += fmt::format("<text class=\"small middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x,
+                         below += line_height, escape_xml(line));
   }
 }
 
@@ -135,7 +171,9 @@ void draw_wheels(const std::vector<RankedDesign>& designs, std::string& svg) {
 std::string pareto_svg(const std::vector<RankedDesign>& designs,
                        const std::vector<RankedQuantity>& quantities, const std::string& title) {
   const std::size_t n_panels = std::max<std::size_t>(1, quantities.size() - 1);
-  const double width = wheels_left + wheels_width + 10, height = top + n_panels * panel_height;
+  const ShownWheels wheels(designs);
+  const double width = wheels_left + wheels_width + 10,
+               height = top + std::max(n_panels * panel_height, wheels.height());
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
       "{1:.0f}\">\n{2}<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n<text class=\"title\" "
@@ -149,7 +187,7 @@ std::string pareto_svg(const std::vector<RankedDesign>& designs,
     draw_axes(x, y, svg);
     draw_points(x, y, designs, svg);
   }
-  draw_wheels(designs, svg);
+  draw_wheels(designs, wheels, svg);
   return svg + "</svg>\n";
 }
 

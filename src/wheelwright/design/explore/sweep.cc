@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wheelwright/case/case_key.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/read.h"
@@ -30,6 +32,25 @@ GivenCells with_swept(GivenCells given, const std::vector<SweptKey>& keys) {
     given.axial |= swept.key == key_of(&Grid::axial_cells).path();
   }
   return given;
+}
+
+/// With shares of the distance that sum to 1: those of the load cases that are not swept keep their
+/// proportions.
+Case with_fitting_shares(Case c, const std::vector<SweptKey>& keys) {
+  double swept = 0, others = 0;
+  std::vector<double*> free;
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k) {
+    auto& share = c.load.cases[k].distance_share;
+    if (std::ranges::find(keys, key_of(&CaseLoad::distance_share, k).path(), &SweptKey::key) != keys.end()) {
+      swept += share.value_or(0);
+    } else if (share) {
+      others += *share;
+      free.push_back(&*share);
+    }
+  }
+  if (swept > 0 && swept <= 1 && others > 0)
+    for (double* share : free) *share *= (1 - swept) / others;
+  return c;
 }
 
 /// The case as if read from its own file, or its first problem.
@@ -67,6 +88,7 @@ Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const G
       design.parameters.emplace_back(
           swept.unit.empty() ? swept.key : fmt::format("{} [{}]", swept.key, swept.unit), value);
     }
+    source = with_fitting_shares(std::move(source), keys);
     auto valid = checked(with_default_grid(source, with_swept(given_cells, keys)), file, design.text);
     if (!valid) return valid.failure();
     design.source = *std::move(valid);

@@ -22,6 +22,11 @@ Expected<SteadyTemperature<dim>> steady_temperature(const StateSolver<dim>& solv
   return SteadyTemperature<dim>{*std::move(conduction), std::move(heat), *std::move(rise)};
 }
 
+std::optional<double> warmest_rim(const Cooling& cooling, double warmest) {
+  return cooling.rim_temperature && *cooling.rim_temperature > warmest ? cooling.rim_temperature
+                                                                       : std::nullopt;
+}
+
 template <int dim>
 HeatFlows heat_flows(const Conduction<dim>& conduction, const std::vector<double>& heat,
                      const std::vector<double>& rise) {

@@ -23,6 +23,11 @@ struct SteadyTemperature {
 template <int dim>
 Expected<SteadyTemperature<dim>> steady_temperature(const StateSolver<dim>& solver, const State<dim>& state);
 
+/// The temperature of the rim [deg C], if it is given and higher than that of all points of the material
+/// beside it, of which the warmest one has the temperature `warmest`: then the rim is the warmest place of
+/// that material.
+std::optional<double> warmest_rim(const Cooling& cooling, double warmest);
+
 /// What leaves a sector through its surfaces, in the order of CooledSurface, and through the rim [W, per
 /// metre of width when dim = 2]. Together they are the sum of the heat.
 struct HeatFlows {

@@ -161,8 +161,12 @@ std::vector<std::vector<double>> resistance_of_layers(const StateSolver<dim>& so
 }
 
 double resistance_beyond(std::span<const double> by_harmonic) {
-  const auto last_octave = by_harmonic.subspan(by_harmonic.size() / 2);
-  return std::accumulate(last_octave.begin(), last_octave.end(), 0.0);
+  constexpr double rounding = 1e-12;  // of the energies, of which one layer's is a difference
+  const auto sum = [](std::span<const double> forces) {
+    return std::accumulate(forces.begin(), forces.end(), 0.0);
+  };
+  const double last_octave = sum(by_harmonic.subspan(by_harmonic.size() / 2));
+  return std::abs(last_octave) > rounding * std::abs(sum(by_harmonic)) ? last_octave : 0;
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                              \

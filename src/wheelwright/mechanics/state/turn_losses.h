@@ -68,7 +68,7 @@ std::vector<std::vector<double>> resistance_of_layers(const StateSolver<dim>& so
 
 /// An estimate of what the harmonics above N / 2 would add to a force by harmonics: as much as those of the
 /// last octave, which is a bound if the energies fall at least as the third power of the harmonic. Near an
-/// elastic contact they fall as the fourth.
+/// elastic contact they fall as the fourth. 0 if it is less than the rounding of the sum.
 double resistance_beyond(std::span<const double> by_harmonic);
 
 }  // namespace wheelwright

@@ -18,9 +18,9 @@ std::string accuracy_table(const AccurateNumbers& numbers) {
   std::string table = fmt::format("errors are at most {:.3g} % unless a reason is given, on {}\n",
                                   100 * numbers.accuracy, numbers.grid);
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    const auto& [label, key, shown, value, error, reason] = numbers.numbers[k];
+    const auto& [label, key, kind, shown, value, error, reason] = numbers.numbers[k];
     table += fmt::format("{:<{}}  {:>22}{}{}\n", labels[k], width,
-                         text_with_error(value * shown.factor, error.value_or(0) * shown.factor),
+                         text_with_error(value * shown.factor, error.value_or(0) * shown.factor, kind),
                          reason.empty() ? "" : "  ", reason);
   }
   return table;

@@ -11,6 +11,7 @@ namespace wheelwright {
 /// A number of a wheel at the end of a refinement of its grid.
 struct AccurateNumber {
   std::string label, key;
+  UnitKind kind;
   ShownUnit shown;
   double value;                 ///< in SI units, on the whole width
   std::optional<double> error;  ///< the estimate of its discretization error; nothing if there is none

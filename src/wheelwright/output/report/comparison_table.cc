@@ -18,15 +18,13 @@ using Value = std::optional<KnownNumber>;
 bool is_known(const Value& value) { return value && *value; }
 bool is_missing(const Value& value) { return value && !*value; }
 
-/// Whether the zero of its unit is arbitrary, so that changes are differences.
-bool is_in_degrees_celsius(const ComparedRow& row) { return row.key.find("_deg_C") != std::string::npos; }
-
 /// Empty if the first value is negligible compared with the other.
 std::string change(const ComparedRow& row, std::size_t wheel) {
   constexpr double max_percents = 1e5;
   if (!is_known(row.values[0]) || !is_known(row.values[wheel])) return "";
   const double first = **row.values[0], value = **row.values[wheel];
-  if (is_in_degrees_celsius(row)) return fmt::format("{:+.2f} K", value - first);
+  // The zero of its unit is arbitrary.
+  if (row.kind == UnitKind::temperature) return fmt::format("{:+.2f} K", value - first);
   const double percents = 100 * (value / first - 1);
   if (!(std::abs(percents) < max_percents)) return "";
   if (std::abs(percents) < 0.005) return "0 %";
@@ -66,7 +64,7 @@ std::string text(const UndecidedNumbers& undecided, const std::vector<std::strin
 
 std::string value_text(const ComparedRow& row, std::size_t wheel) {
   if (!is_known(row.values[wheel])) return "-";
-  return text_with_error(**row.values[wheel], error_of(row, wheel).value_or(0));
+  return text_with_error(**row.values[wheel], error_of(row, wheel).value_or(0), row.kind);
 }
 
 /// The numbers that are missing of some wheels for one reason.
@@ -120,7 +118,8 @@ void add_row(const WheelNumber<dim>& number, const std::string& in_case,
   const double factor = number.shown().factor;
   ComparedRow row{.label = fmt::format("{}{} [{}]", number.label, in_case, number.shown().name),
                   .values = {},
-                  .key = number.key + in_case};
+                  .key = number.key + in_case,
+                  .kind = number.kind};
   for (const DescribedWheel<dim>* wheel : wheels) {
     const auto value = wheel ? number.value(*wheel) : std::nullopt;
     row.values.push_back(is_known(value) ? Value(**value * factor) : value);

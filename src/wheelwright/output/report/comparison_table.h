@@ -15,6 +15,7 @@ struct ComparedRow {
   /// Estimates of the errors of known values; nothing where there is none. Empty: of no wheel.
   std::vector<std::optional<double>> errors = {};
   std::string key = {};  ///< for programs
+  UnitKind kind = UnitKind::energy;
 };
 
 /// Numbers in which some wheels differ by less than their errors, if those of all of them are known.

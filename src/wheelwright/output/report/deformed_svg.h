@@ -40,6 +40,7 @@ struct DeformedPicture {
   std::vector<ContactPoint> contact;  ///< of this position; its pressure is shown in a window
   /// The largest scalar and its place before the deformation (body frame); absent: that of the drawn points.
   std::optional<DrawnPeak<dim>> peak;
+  bool is_peak_projected = false;  ///< when dim = 3: a ring marks it through the material in front of it
   LayerCircles layers = {};
 };
 

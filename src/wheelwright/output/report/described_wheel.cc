@@ -414,13 +414,13 @@ std::vector<WheelNumber<dim>> numbers_of_fatigue(const std::optional<PartOfRing>
                        [&](const FatigueDamage& d) { return value(worst_place(d, wheel, part), wheel); });
     };
   };
-  const auto as_extreme = Converges::as_an_extreme;
-  return {number<dim>(quantity, under_load(utilization_at<dim>)),
-          {life_label, UnitKind::distance, life_key, under_load(life_at<dim>), false, as_extreme},
-          {label(quantity) + in_all, kind(quantity), number_key(quantity, dim) + in_all,
-           under_all(utilization_at<dim>), false, as_extreme},
-          {life_label + in_all, UnitKind::distance, life_key + in_all, under_all(life_at<dim>), false,
-           as_extreme}};
+  const auto as_extreme = Converges::as_an_extreme, as_power = Converges::as_a_power;
+  return {
+      number<dim>(quantity, under_load(utilization_at<dim>)),
+      {life_label, UnitKind::distance, life_key, under_load(life_at<dim>), false, as_power},
+      {label(quantity) + in_all, kind(quantity), number_key(quantity, dim) + in_all,
+       under_all(utilization_at<dim>), false, as_extreme},
+      {life_label + in_all, UnitKind::distance, life_key + in_all, under_all(life_at<dim>), false, as_power}};
 }
 
 /// Of wheels that say how warm they get.

@@ -26,6 +26,13 @@ std::optional<std::string> change(double before, double after, const Words& word
   return fmt::format("{:.1f} % {}", std::abs(percents), percents > 0 ? words.larger : words.smaller);
 }
 
+/// In degrees Celsius, whose zero is arbitrary.
+std::string change_of_temperature(double before, double after) {
+  constexpr double minimum = 0.05;
+  if (std::abs(after - before) < minimum) return "as before";
+  return fmt::format("{:.1f} K {}", std::abs(after - before), after > before ? "higher" : "lower");
+}
+
 /// The number with this key in summary.json.
 template <int dim>
 std::optional<double> value(const DescribedWheel<dim>& wheel, std::string_view key) {
@@ -41,9 +48,6 @@ std::optional<std::string> change(const RunSummary<dim>& summary, std::string_vi
   return change(*before, *after, words);
 }
 
-/// "mass" of "mass [kg]".
-std::string without_unit(const std::string& name) { return name.substr(0, name.find(" [")); }
-
 }  // namespace
 
 template <int dim>
@@ -56,8 +60,10 @@ std::string gains(const RunSummary<dim>& summary) {
   add("run-out ", change(summary, "run_out_m", {"larger", "smaller", "as large as before"}));
   const KnownNumber &before = summary.before.objective, &after = summary.after.objective;
   if (before && after)
-    add(summary.minimized.empty() ? "objective " : without_unit(summary.minimized) + " ",
-        change(*before, *after, {"higher", "lower", "as before"}));
+    add(summary.minimized.empty() ? "objective " : summary.minimized + " ",
+        summary.objective_kind == UnitKind::temperature
+            ? change_of_temperature(*before, *after)
+            : change(*before, *after, {"higher", "lower", "as before"}));
   return parts.empty() ? "" : fmt::format("Compared with before: {}", fmt::join(parts, ", "));
 }
 

@@ -11,6 +11,8 @@
 #include "wheelwright/output/report/colour_map.h"
 #include "wheelwright/output/report/ground_outline.h"
 #include "wheelwright/output/report/layered_surface.h"
+#include "wheelwright/output/report/load_marks.h"
+#include "wheelwright/output/report/picture_view.h"
 #include "wheelwright/output/report/surface_vtp.h"
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/shape/geometry/cell_map.h"
@@ -164,15 +166,45 @@ LitBody lit_ground(const PolarGrid<3>& grid, const Ground& ground, double camber
   return body;
 }
 
+/// The displacement of the drawn position at a point of the body frame.
+Vec<3> displacement_at(const Vec<3>& x, const Lattice<3>& lattice, const RingField& displacement) {
+  const PolarGrid<3>& grid = lattice.grid();
+  const Vec<3> place{grid.line_at(std::hypot(x[0], x[1])), std::atan2(x[1], x[0]) / grid.column_angle(),
+                     grid.cells[2] * x[2] / grid.width};
+  const std::array<int, 3> cell{std::clamp(static_cast<int>(place[0]), 0, grid.cells[0] - 1),
+                                static_cast<int>(std::floor(place[1])),
+                                std::clamp(static_cast<int>(place[2]), 0, grid.cells[2] - 1)};
+  const Vec<3> xi{std::clamp(place[0] - cell[0], 0.0, 1.0), place[1] - cell[1],
+                  std::clamp(place[2] - cell[2], 0.0, 1.0)};
+  const ShapeFunctions<3> shape(lattice.degree(), xi);
+  return interpolate<3>(displacement, ring_cell_nodes<3>(lattice, cell),
+                        std::span(shape.value.data(), nodes_per_cell<3>(lattice.degree())));
+}
+
+/// A ring about the projection of the peak, wherever it lies in the material.
+std::string projected_peak(const Lattice<3>& lattice, const DeformedPicture<3>& picture) {
+  if (!picture.peak || !picture.is_peak_projected) return "";
+  const Vec<3> place = picture.peak->place, u = displacement_at(place, lattice, picture.displacement);
+  std::vector<std::vector<float>> at_place;
+  for (const double component : u) at_place.push_back({static_cast<float>(component)});
+  const auto drawn = standing_on_the_ground(displaced({place}, at_place, lattice, picture), lattice.grid(),
+                                            picture.contact_azimuth);
+  const Vec<3> seen = wheel_camera(lattice.grid()).seen(drawn[0]);
+  const PictureView view{{}, 1, P::margin, P::top, P::wheel_size};
+  return peak_mark(view, {seen[0], -seen[1]},
+                   "peak " + value_text(picture.peak->value, escape_xml(picture.scalar.unit)));
+}
+
 std::string peak_text(const DeformedPicture<3>& picture) {
   if (!picture.peak) return "";
   const Vec<3>& x = picture.peak->place;
   return fmt::format(
       "<text x=\"{}\" y=\"{}\">largest {}: {} at radius {:.1f} mm, azimuth {:.2f}\u00b0, z = {:.1f} "
-      "mm</text>\n",
+      "mm{}</text>\n",
       P::margin, P::top + P::wheel_size + caption_height - 36, escape_xml(picture.scalar.name),
       value_text(picture.peak->value, escape_xml(picture.scalar.unit)), 1e3 * std::hypot(x[0], x[1]),
-      std::atan2(x[1], x[0]) * 180 / std::numbers::pi, 1e3 * x[2]);
+      std::atan2(x[1], x[0]) * 180 / std::numbers::pi, 1e3 * x[2],
+      picture.is_peak_projected ? "; ring: its projection" : "");
 }
 
 }  // namespace
@@ -236,7 +268,8 @@ std::string deformed_svg(const SurfaceMesh& whole, const Lattice<3>& lattice,
   return deformed_document(
       picture,
       fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n", P::margin,
-                  P::top, P::wheel_size, data_url(image)),
+                  P::top, P::wheel_size, data_url(image)) +
+          projected_peak(lattice, picture),
       scale, caption_height,
       peak_text(picture) + (is_pressed ? footnote(picture.magnification, caption_height) : ""));
 }

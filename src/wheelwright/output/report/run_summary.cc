@@ -71,11 +71,13 @@ std::vector<ComparedRow> rows(const RunSummary<dim>& summary) {
     const auto& error = shape.objective_error;
     return error && *error ? std::optional(**error * summary.objective.factor) : std::nullopt;
   };
-  std::vector<ComparedRow> result{{summary.minimized.empty()
-                                       ? fmt::format("objective [{}]", unit<dim>(UnitKind::energy))
-                                       : "objective: " + summary.minimized,
-                                   {shown(summary.before.objective), shown(summary.after.objective)},
-                                   {shown_error(summary.before), shown_error(summary.after)}}};
+  std::vector<ComparedRow> result{
+      {.label =
+           fmt::format("objective{}{}{}{} [{}]", summary.minimized.empty() ? "" : ": ", summary.minimized,
+                       summary.sum.empty() ? "" : ", ", summary.sum, summary.objective.name),
+       .values = {shown(summary.before.objective), shown(summary.after.objective)},
+       .errors = {shown_error(summary.before), shown_error(summary.after)},
+       .kind = summary.objective_kind}};
   for (ComparedRow& row : compared_rows<dim>({&summary.before.wheel, &summary.after.wheel}))
     result.push_back(std::move(row));
   return result;

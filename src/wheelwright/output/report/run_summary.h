@@ -70,8 +70,9 @@ struct RunSummary {
   std::string title;
   SummarizedShape<dim> before, after;
   std::vector<SummarizedBound> bounds = {};
-  /// What is minimized instead of the weighted sum, with its unit; empty for the sum.
-  std::string minimized = {};
+  std::string minimized = {};  ///< instead of the weighted sum of functionals; empty for it
+  std::string sum = {};        ///< how the objective is made of load cases, in words; empty for one load
+  UnitKind objective_kind = UnitKind::energy;
   ShownUnit objective = shown_unit(UnitKind::energy, dim);
   std::vector<Remark> remarks = {};  ///< what got clearly worse
   std::string bounded_peaks = {};    ///< at how many positions bounds on peaks apply; empty without such

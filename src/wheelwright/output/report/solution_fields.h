@@ -11,11 +11,12 @@
 
 namespace wheelwright {
 
-/// The largest von Mises stress at the quadrature points, and where it is (Cartesian, body frame).
+/// The largest value of a scalar, such as the von Mises stress, at the quadrature points, and where it is
+/// (Cartesian, body frame).
 template <int dim>
 struct DrawnPeak {
   Vec<dim> place;  ///< [m]
-  double value;    ///< [Pa]
+  double value;    ///< in its SI unit
 };
 
 /// Components of a stress as it is written: xx, yy, zz, xy, and in 3D yz and xz, with z along the axle; body

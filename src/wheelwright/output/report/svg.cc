@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wheelwright/base/text.h"
+#include "wheelwright/base/units.h"
 #include "wheelwright/output/report/lit_wheel.h"
 #include "wheelwright/output/report/picture_polygon.h"
 
@@ -132,6 +133,14 @@ std::string wheel_panel(const PolarGrid<3>& grid, const WheelState<3>& wheel, do
                      centre_x - 0.5 * wheel_diameter, top, wheel_diameter, data_url(image));
 }
 
+/// Empty if it is not known. The zero of degrees Celsius is arbitrary: their change is a difference.
+std::string change_text(double before, double after, std::string_view in) {
+  if (in == unit<3>(UnitKind::temperature) && std::isfinite(after - before))
+    return fmt::format("  ({:+.2f} K)", after - before);
+  const double change = after / before - 1;
+  return std::isfinite(change) ? fmt::format("  ({})", signed_percentage(change)) : "";
+}
+
 /// Two drawn wheels with their numbers.
 template <int dim>
 std::string with_numbers(const Comparison<dim>& comparison, const std::string& first_panel,
@@ -142,7 +151,6 @@ std::string with_numbers(const Comparison<dim>& comparison, const std::string& f
     if (!std::isfinite(value)) return fmt::format("{}: not computed", comparison.objective_name);
     return fmt::format("{}: {:.5g} {}", comparison.objective_name, value, comparison.objective_unit);
   };
-  const double change = after.objective / before.objective - 1;
   const auto volume = [](double fraction) {
     return std::isfinite(fraction) ? fmt::format("volume: {} of the ring", percentage(fraction))
                                    : "volume: not computed";
@@ -159,8 +167,9 @@ std::string with_numbers(const Comparison<dim>& comparison, const std::string& f
   svg += second_panel + text(second_middle, top - 18, "heading", after.heading);
   svg += text(first_middle, first_line, "fact", objective(before.objective));
   svg += text(first_middle, second_line, "fact", volume(before.volume_fraction));
-  const std::string percent = std::isfinite(change) ? fmt::format("  ({})", signed_percentage(change)) : "";
-  svg += text(second_middle, first_line, "fact", objective(after.objective) + percent);
+  svg += text(
+      second_middle, first_line, "fact",
+      objective(after.objective) + change_text(before.objective, after.objective, comparison.objective_unit));
   svg += text(second_middle, second_line, "fact", volume(after.volume_fraction));
   const std::string of_layers = comparison.layers.empty() ? "" : "; " + text(comparison.layers);
   svg += text(0.5 * picture_width, picture_height - 18, "caption", comparison.caption + of_layers);

@@ -53,21 +53,26 @@ DeformedPicture<dim> with_displacement(DeformedPicture<dim> picture) {
 
 /// The same with the fatigue utilization of a turn instead.
 template <int dim>
-DeformedPicture<dim> with_fatigue(DeformedPicture<dim> picture, NamedField utilization) {
+DeformedPicture<dim> with_fatigue(DeformedPicture<dim> picture, NamedField utilization,
+                                  std::optional<DrawnPeak<dim>> peak) {
   for (auto* values : {&utilization.field.values, &utilization.field.odd_values})
     for (double& value : *values) value *= 100;
   std::ranges::replace(utilization.name, '_', ' ');
   picture.scalar = {std::move(utilization.name), "%", std::move(utilization.field)};
-  picture.peak = {};
+  if (peak) peak->value *= 100;
+  picture.peak = peak;
+  picture.is_peak_projected = true;
   return picture;
 }
 
 /// The same with the temperature of the rolling wheel instead.
 template <int dim>
-DeformedPicture<dim> with_temperature(DeformedPicture<dim> picture, const RingField& temperature) {
+DeformedPicture<dim> with_temperature(DeformedPicture<dim> picture, const RingField& temperature,
+                                      const std::optional<DrawnPeak<dim>>& peak) {
   picture.scalar = {"temperature", unit<dim>(UnitKind::temperature), temperature};
   picture.scale = ScaleKind::all;
-  picture.peak = {};
+  picture.peak = peak;
+  picture.is_peak_projected = true;
   return picture;
 }
 
@@ -75,7 +80,7 @@ DeformedPicture<dim> with_temperature(DeformedPicture<dim> picture, const RingFi
 
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
-                          const PositionFields<2>& fields) {
+                          const PositionFields<2>& fields, const TurnPeaks<2>& peaks) {
   const PolarGrid<2>& grid = shape.lattice.grid();
   const auto write = [&](const char* file, const DeformedPicture<2>& picture) {
     write_atomically(folder / (names.prefix + file), deformed_svg(shape, fields.lattice, picture));
@@ -87,13 +92,15 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   write("stress.svg", stress);
   write("stress_contact.svg", contact);
   write("displacement.svg", with_displacement(stress));
-  if (fields.fatigue) write("fatigue.svg", with_fatigue(stress, *fields.fatigue));
-  if (fields.temperature) write("temperature.svg", with_temperature(stress, *fields.temperature));
+  if (fields.fatigue) write("fatigue.svg", with_fatigue(stress, *fields.fatigue, peaks.fatigue));
+  if (fields.temperature)
+    write("temperature.svg", with_temperature(stress, *fields.temperature, peaks.temperature));
   write_atomically(folder / (names.prefix + "mesh.svg"), mesh_svg(shape, domain, names.title, fields.layers));
 }
 
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
-                          const LevelSet<3>& shape, const CutDomain<3>&, const PositionFields<3>& fields) {
+                          const LevelSet<3>& shape, const CutDomain<3>&, const PositionFields<3>& fields,
+                          const TurnPeaks<3>& peaks) {
   const SurfaceMesh surface = shape_boundary(shape, fields.lattice.degree());
   const auto write = [&](const char* file, const DeformedPicture<3>& picture) {
     write_atomically(folder / (names.prefix + file), deformed_svg(surface, fields.lattice, picture));
@@ -101,8 +108,9 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
   const auto stress = stress_picture(names, fields);
   write("stress.svg", stress);
   write("displacement.svg", with_displacement(stress));
-  if (fields.fatigue) write("fatigue.svg", with_fatigue(stress, *fields.fatigue));
-  if (fields.temperature) write("temperature.svg", with_temperature(stress, *fields.temperature));
+  if (fields.fatigue) write("fatigue.svg", with_fatigue(stress, *fields.fatigue, peaks.fatigue));
+  if (fields.temperature)
+    write("temperature.svg", with_temperature(stress, *fields.temperature, peaks.temperature));
   write_atomically(folder / (names.prefix + "pressure.svg"),
                    pressure_map_svg(names.title, shape.lattice.grid(), fields.contact));
 }

@@ -5,11 +5,24 @@
 
 namespace wheelwright {
 
+namespace {
+
+/// Of a power: the error of its logarithm.
+double error_of_logarithm(double value, double on_finer_grid, double refinement) {
+  return discretization_error(std::log(value), std::log(on_finer_grid), refinement, Converges::as_an_extreme);
+}
+
+}  // namespace
+
 double discretization_error(double value, double on_finer_grid, double refinement, Converges how) {
+  if (how == Converges::as_a_power)
+    return value * std::expm1(error_of_logarithm(value, on_finer_grid, refinement));
   return error_safety(how) * std::abs(value - on_finer_grid) / (1 - 1 / refinement);
 }
 
 double error_on_finer_grid(double value, double on_finer_grid, double refinement, Converges how) {
+  if (how == Converges::as_a_power)
+    return on_finer_grid * std::expm1(error_of_logarithm(value, on_finer_grid, refinement) / refinement);
   return discretization_error(value, on_finer_grid, refinement, how) / refinement;
 }
 

@@ -12,6 +12,9 @@ enum class Converges {
   /// The extreme of single points or places, such as a peak or an edge of the contact: from grid to grid it
   /// moves by parts of a cell. And small differences of such numbers, such as the run-out.
   as_an_extreme,
+  /// A power of such an extreme, positive, as a life: it varies by factors, and its error is that of its
+  /// logarithm.
+  as_a_power,
 };
 
 /// The factor by which the estimate exceeds the error of a number that converges with the first order. With
@@ -20,7 +23,9 @@ constexpr double error_safety(Converges how) { return how == Converges::as_an_in
 
 /// The estimate of the discretization error |q - exact q| of a number from its value on a finer grid, whose
 /// cells are smaller by the factor r > 1: safety |q - q_fine| / (1 - 1/r). Without the factor it is exact for
-/// errors proportional to the size of the cells, and too large if they fall faster.
+/// errors proportional to the size of the cells, and too large if they fall faster. The error of a power is q
+/// (f - 1), where f is the factor, estimated from the logarithms, by which the exact one is at most smaller
+/// or larger.
 double discretization_error(double value, double on_finer_grid, double refinement,
                             Converges how = Converges::as_an_integral);
 

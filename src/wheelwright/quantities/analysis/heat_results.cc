@@ -33,7 +33,7 @@ std::vector<Peak> peaks_of_layers(const RollingModel<dim>& model, const CutDomai
           }
       });
   // A rim of given temperature lies beside the points of the first layer.
-  if (const auto rim = model.cooling->rim_temperature; rim && *rim > peaks.front().temperature) {
+  if (const auto rim = warmest_rim(*model.cooling, peaks.front().temperature)) {
     peaks.front().temperature = *rim;
     peaks.front().place = {model.grid.inner_radius, 0, 0};
   }

@@ -98,8 +98,8 @@ FunctionalValue<dim> PeakTemperature<dim>::evaluate(const StateSolver<dim>& solv
   for (const auto& sample : samples) peak = std::max(peak, sample.f);
   const double integral = excess.integral(samples);
   // The rim lies beside the points; where it is warmest, no shape changes the peak.
-  if (const auto rim = cooling.rim_temperature;
-      rim && !norm_.correction && excess.has_rim(model.grid) && *rim - cooling.coldest() >= peak) {
+  if (const auto rim = warmest_rim(cooling, cooling.coldest() + peak);
+      rim && !norm_.correction && excess.has_rim(model.grid)) {
     value.over_positions = *rim;
     return value;
   }

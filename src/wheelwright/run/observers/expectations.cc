@@ -111,10 +111,16 @@ KnownNumber value_of(const Expectation& expectation, const StateSolver<dim>& sol
 
 }  // namespace
 
-bool Finding::met() const {
-  const double margin = expectation.margin * expectation.value;
-  return found && std::abs(*found - expectation.value) <= margin;
+namespace {
+
+/// Relative to the value, or absolute where that is zero.
+double margin(const Expectation& expectation) {
+  return expectation.margin * (expectation.value == 0 ? 1 : std::abs(expectation.value));
 }
+
+}  // namespace
+
+bool Finding::met() const { return found && std::abs(*found - expectation.value) <= margin(expectation); }
 
 std::string Finding::text() const {
   const std::string shape =
@@ -122,7 +128,9 @@ std::string Finding::text() const {
   const std::string in_case = expectation.load_case.empty() ? "" : " in " + expectation.load_case;
   const std::string quantity = fmt::format("{}{} of {}", name(expectation.quantity), in_case, shape);
   const std::string expected =
-      fmt::format("{:.6g} within {:.3g} %", expectation.value, 100 * expectation.margin);
+      expectation.value == 0
+          ? fmt::format("0 within {:.3g} {}", margin(expectation), unit<3>(kind(expectation.quantity)))
+          : fmt::format("{:.6g} within {:.3g} %", expectation.value, 100 * expectation.margin);
   if (!found) return fmt::format("{}: unknown ({}), expected {}", quantity, found.failure(), expected);
   return fmt::format("{}: {:.6g}, {} {}", quantity, *found, met() ? "as expected," : "expected", expected);
 }

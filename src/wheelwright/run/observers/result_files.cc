@@ -7,6 +7,7 @@
 
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
+#include "wheelwright/case/single_load.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/output/report/fatigue_field.h"
 #include "wheelwright/output/report/shape_boundary.h"
@@ -57,15 +58,16 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                  last.evaluation.function("objective").value, last.measure);
   write_for_workshop(run, after.boundary);
   const Quantity minimized = minimized_quantity(run.study.source);
-  const std::string load = load_text(run.study.model());
+  const std::string load = load_text(run.study.model()), sum = sum_over_load_cases(run.study.source);
+  const std::string caption = !sum.empty()              ? sum
+                              : minimized == Quantity() ? fmt::format("sum over {} load positions, {}",
+                                                                      run.study.model().n_positions, load)
+                                                        : load;
   write_atomically(
       run.folder / "comparison.svg",
       comparison_svg(run.study.grid(),
                      Comparison<dim>{.title = run_title(run.study.source),
-                                     .caption = minimized == Quantity()
-                                                    ? fmt::format("sum over {} load positions, {}",
-                                                                  run.study.model().n_positions, load)
-                                                    : load,
+                                     .caption = caption,
                                      .objective_name = name(minimized),
                                      .objective_unit = shown_unit(minimized, run.study.source.wheel).name,
                                      .before = before,
@@ -77,7 +79,8 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
 /// The wheel under every load case except the first: its pictures, in the folder load_cases.
 template <int dim>
 void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& solver,
-                            const LevelSet<dim>& shape, const State<dim>& first) {
+                            const LevelSet<dim>& shape, const State<dim>& first,
+                            const DescribedWheel<dim>& wheel) {
   if (run.study.load_cases.size() > 1) make_subfolder(run.folder / "load_cases");
   for (std::size_t k = 1; k < run.study.load_cases.size(); ++k) {
     const auto& [name, model, share] = run.study.load_cases[k];
@@ -88,7 +91,8 @@ void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& sol
                           .title = run_title(run.study.source) + ", " + name,
                           .width = run.study.source.wheel.width,
                           .n_positions = model.n_positions},
-                         shape, (*state)->domain(), most_stressed_fields(solver, **state));
+                         shape, (*state)->domain(), most_stressed_fields(solver, **state),
+                         turn_peaks(wheel.others[k - 1]));
   }
 }
 
@@ -109,7 +113,8 @@ void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& r
   rolling_->write_collection();
   rolling_.reset();
   write_shapes(run, *ended->state, ended->summary->before.objective);
-  write_other_load_cases(run, *ended->solver, ended->state->shape, *ended->solution);
+  write_other_load_cases(run, *ended->solver, ended->state->shape, *ended->solution,
+                         ended->summary->after.wheel);
 }
 
 template <int dim>
@@ -128,7 +133,7 @@ void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>
                         .title = run_title(run.study.source),
                         .width = run.study.source.wheel.width,
                         .n_positions = run.study.model().n_positions},
-                       shape, solution.domain(), worst);
+                       shape, solution.domain(), worst, turn_peaks(shown.ended.summary->after.wheel));
 }
 
 template class ResultFiles<2>;

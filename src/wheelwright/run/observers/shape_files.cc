@@ -53,7 +53,7 @@ template <int dim>
 void ShapeFiles<dim>::write(const TrialDone<dim>& done, const RunView<dim>& run) {
   const StateSolver<dim>& solver = *run.study.solver;
   const State<dim>& solution = *done.trial.solution;
-  const PositionFields<dim> worst = most_stressed_fields(solver, solution);
+  const PositionFields<dim> worst = most_stressed_fields(solver, solution, run.study.load_cases);
   auto fields = named_fields(worst);
   if (const auto gradient = shape_gradient_field(done.state, run.evolver))
     fields.push_back(
@@ -73,6 +73,9 @@ void ShapePictures<dim>::operator()(const Event<dim>& event, const RunView<dim>&
   const auto* done = std::get_if<TrialDone<dim>>(&event);
   if (!done || !is_due(*done, run.study.source.output.pictures_every)) return;
   const State<dim>& solution = *done->trial.solution;
+  const StateSolver<dim>& solver = *run.study.solver;
+  const LevelSet<dim>& shape = done->state.shape;
+  const auto& cases = run.study.load_cases;
   make_subfolder(run.folder / "shapes");
   write_wheel_pictures(
       run.folder / "shapes",
@@ -80,7 +83,10 @@ void ShapePictures<dim>::operator()(const Event<dim>& event, const RunView<dim>&
        .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration),
        .width = run.study.source.wheel.width,
        .n_positions = run.study.model().n_positions},
-      done->state.shape, solution.domain(), most_stressed_fields(*run.study.solver, solution));
+      shape, solution.domain(), most_stressed_fields(solver, solution, cases),
+      turn_peaks<dim>(fatigue_results(solver, shape, solution),
+                      fatigue_damage(solver, shape, solution, cases, Interrupt()),
+                      heat_results(solver, shape, solution)));
 }
 
 template class ShapeFiles<2>;

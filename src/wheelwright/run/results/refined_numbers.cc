@@ -56,7 +56,7 @@ std::vector<AccurateNumber> numbers_of(const Refinement<dim>& refined, double ac
     const auto value = known_value(number, wheel);
     if (!value) continue;
     const auto error = error_of(number, wheel);
-    AccurateNumber one{number.label, number.key, number.shown(), *value, {}, {}};
+    AccurateNumber one{number.label, number.key, number.kind, number.shown(), *value, {}, {}};
     if (error && *error) one.error = **error;
     if (!one.error)
       one.reason = error ? error->failure() : refined.end;

@@ -1,10 +1,10 @@
 #include "wheelwright/run/results/summarized_run.h"
 
-#include <fmt/format.h>
-
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/design_radii.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/shown_value.h"
+#include "wheelwright/case/single_load.h"
 #include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/results/bounded_peaks.h"
 #include "wheelwright/run/results/given_wheel.h"
@@ -14,11 +14,6 @@
 
 namespace wheelwright {
 namespace {
-
-std::string minimized_text(const Quantity& quantity, const Wheel& wheel) {
-  if (quantity == Quantity()) return {};
-  return fmt::format("{} [{}]", name(quantity), shown_unit(quantity, wheel).name);
-}
 
 template <int dim>
 std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state, const Wheel& wheel) {
@@ -62,7 +57,9 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const Study<dim>& given,
           .before = {0, known(objective), std::move(before)},
           .after = {last.iteration, last.evaluation.function("objective").value, std::move(after)},
           .bounds = summarized_bounds(last, study.source.wheel),
-          .minimized = minimized_text(minimized_quantity(study.source), study.source.wheel),
+          .minimized = minimizes_weighted_sum(study.source) ? "" : name(minimized_quantity(study.source)),
+          .sum = sum_over_load_cases(study.source),
+          .objective_kind = kind(study.source.objective.minimize),
           .objective = shown_unit(study.source.objective.minimize, study.source.wheel),
           .remarks = std::move(worse),
           .bounded_peaks = bounded_peaks(study.source),

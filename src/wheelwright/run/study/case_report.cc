@@ -17,6 +17,7 @@
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/case/shown_value.h"
+#include "wheelwright/case/single_load.h"
 #include "wheelwright/mechanics/rolling/contact_failure.h"
 #include "wheelwright/run/study/problem_size.h"
 #include "wheelwright/run/study/study.h"
@@ -295,6 +296,28 @@ std::vector<std::string> warnings_of_losses(const Case& c) {
   return result;
 }
 
+/// A constant of heat that the case gives.
+std::optional<CaseKey> constant_of_heat(const Case& c) {
+  if (c.material.conductivity) return key_of(&Material::conductivity);
+  if (c.material.maximum_temperature) return key_of(&Material::maximum_temperature);
+  for (std::size_t i = 0; i < c.layers.size(); ++i) {
+    if (c.layers[i].conductivity) return key_of(&MaterialLayer::conductivity, i);
+    if (c.layers[i].maximum_temperature) return key_of(&MaterialLayer::maximum_temperature, i);
+  }
+  return {};
+}
+
+/// Constants of heat without a section that says what takes the heat.
+std::vector<std::string> unused_constants_of_heat(const Case& c) {
+  const auto key = constant_of_heat(c);
+  if (!key || c.heat != Heat()) return {};
+  return {
+      fmt::format("{} has no effect: no temperature is computed, because nothing says what takes the heat; "
+                  "add a section [heat] "
+                  "with a convection or a rim_temperature",
+                  key->path())};
+}
+
 /// Where the temperature of a plane wheel is not constant over the width: with a uniform source and no other
 /// way out than its side faces, the middle rises by h w / (4 k) of the rise of the faces more.
 std::vector<std::string> warnings_of_heat(const Case& c) {
@@ -368,6 +391,8 @@ std::string derived_report(const Case& c) {
     report += line("load case", load_case_text(c.load.cases[k])) + load_report(single) +
               contact_report(single) + losses_report(single);
   }
+  if (const std::string sum = sum_over_load_cases(c); !sum.empty())
+    report += line("objective", minimizes_weighted_sum(c) ? sum : name(minimized_quantity(c)) + ", " + sum);
   return report + material_report(c) + size_report(c) + bounds_report(c);
 }
 
@@ -407,6 +432,7 @@ std::vector<std::string> warnings(const Case& c) {
   std::ranges::copy(unequal_rows(c), std::back_inserter(result));
   std::ranges::copy(warnings_of_losses(c), std::back_inserter(result));
   std::ranges::copy(warnings_of_fatigue(c), std::back_inserter(result));
+  std::ranges::copy(unused_constants_of_heat(c), std::back_inserter(result));
   std::ranges::copy(warnings_of_heat(c), std::back_inserter(result));
   if (const double cells = smallest_hole_in_cells(c);
       cells < least_cells_per_hole && c.optimizer.smoothing == 0)

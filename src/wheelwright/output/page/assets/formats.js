@@ -20,6 +20,14 @@ const formats = (() => {
     return `${at(Math.round(value / 10 ** place))} \u00b1 ${at(upTo(place))}`;
   }
 
+  // The same for a number of a row of shown_numbers(): a life, which varies by powers of ten, with the range of its error,
+  // value (f - 1), by the factor f.
+  function rowText({ unit, factor }, value, error) {
+    if (unit !== "km" || !(error > 0.1 * value) || !Number.isFinite(error)) return withError(value * factor, error * factor);
+    const two = (number) => shown(Number((number * factor).toPrecision(2))), f = 1 + error / value;
+    return `${two(value)} (${two(value / f)} to ${two(value * f)})`;
+  }
+
   // At most four digits.
   const short = (value) => Number.isFinite(value) ? shown(Number(value.toPrecision(4))) : "\u2013";
 
@@ -65,6 +73,6 @@ const formats = (() => {
   const sentence = (text) => text[0].toUpperCase() + text.slice(1);
   const words = (identifier) => identifier.replaceAll("_", " ");
 
-  return { degree, shown, withError, short, change, briefChange, within, minutes, roundMagnification, steadyMagnification,
+  return { degree, shown, withError, rowText, short, change, briefChange, within, minutes, roundMagnification, steadyMagnification,
     scaleLabels, layersText, sentence, words };
 })();

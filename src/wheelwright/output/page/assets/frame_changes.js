@@ -2,7 +2,7 @@
 // What the page of a run derives from a view ("frame") of the run, from the numbers of a shape, and from pictures of the
 // loaded wheel, as the server sends them.
 const frameChanges = (() => {
-  const { shown, short, withError, words, sentence, within, minutes } = formats;
+  const { shown, short, rowText, words, sentence, within, minutes } = formats;
 
   const labels = { objective_J_per_m: "objective", objective_J: "objective", volume_fraction: "material",
     mass_kg: "mass", mean_travel_m: "travel", stiffness_N_per_m: "stiffness",
@@ -52,7 +52,7 @@ const frameChanges = (() => {
     const objective = [["objective_J_per_m", "J/m"], ["objective_J", "J"]].map(([key, unit]) => ({ key, unit, factor: 1 }));
     return [...objective, ...rows].filter(({ key }) => labelOf(key) && (errors[key] !== undefined || missing[key] !== undefined))
       .map(({ key, unit, factor }) => ({ name: labelOf(key), unit, text: missing[key] === undefined
-        ? withError(values[key] * factor, errors[key] * factor)
+        ? rowText({ unit, factor }, values[key], errors[key])
         : `${shown(values[key] * factor)}; ${missing[key]}` }));
   }
 

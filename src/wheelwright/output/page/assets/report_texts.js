@@ -1,7 +1,7 @@
 "use strict";
 // The tables and sentences of a report, as plain texts.
 const reportTexts = (() => {
-  const { degree, shown, withError, change, within, minutes, sentence, words } = formats;
+  const { degree, shown, rowText, change, within, minutes, sentence, words } = formats;
   const none = "\u2013";
 
   // Whether two values differ, but by no more than the errors that are known of them.
@@ -18,11 +18,11 @@ const reportTexts = (() => {
     const columns = (of) => groups.flatMap(({ wheels }) => wheels.flatMap((wheel, k) => of(wheel, k, wheels)));
     const rows = groups[0].units
       .filter(({ key }) => groups.some(({ wheels }) => wheels.some(({ numbers }) => Number.isFinite(numbers[key]))))
-      .map(({ key, label, unit, factor }) => ({ title: `${label} [${unit}]`, cells: columns(({ numbers }, k, wheels) => {
+      .map(({ key, label, ...row }) => ({ title: `${label} [${row.unit}]`, cells: columns(({ numbers }, k, wheels) => {
         const isOfShape = !wheels.some((wheel) => key in wheel.numbers);  // so it is in the first group
         const missing = isOfShape ? "" : none, both = [wheels[0].numbers[key], numbers[key]];
         const value = { key, text: Number.isFinite(numbers[key]) ?
-          withError(numbers[key] * factor, (numbers.errors?.[key] ?? NaN) * factor) : missing };
+          rowText(row, numbers[key], numbers.errors?.[key] ?? NaN) : missing };
         const mark = isWithinErrors(wheels[0].numbers, numbers, key) ? " ~" : "";
         return k === 0 ? [value] : [value, { key: null, text: both.every(Number.isFinite) ? change(...both) + mark : missing }];
       }) }));
