@@ -11,6 +11,8 @@
 #include "wheelwright/run/checkpoints/resume_point.h"
 #include "wheelwright/run/observers/solved_report.h"
 #include "wheelwright/run/results/fitted_wheel.h"
+#include "wheelwright/shape/geometry/invariance.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright::python {
 namespace {
@@ -69,11 +71,20 @@ std::string written(const ExportFormat& format, const SurfaceModel& model) {
   return without_gil([&] { return format.of_surface(model); });
 }
 
-/// The file of a shape in a format.
 template <int dim>
-py::bytes file(const LevelSet<dim>& psi, const HeldCase& held, const std::string& format, double tolerance) {
+constexpr double usual_tolerance = dim == 2 ? 1e-5 : 1e-4;  // [m], as the program's
+
+/// The file of a shape in a format. A wheel that is the same all along the axle has that of a plane wheel.
+template <int dim>
+py::bytes file(const LevelSet<dim>& psi, const HeldCase& held, const std::string& format,
+               std::optional<double> tolerance) {
   const ExportFormat& named = format_of(format);
-  const auto wheel = without_gil([&] { return fitted_wheel(held.value, psi, held.value.title, tolerance); });
+  if constexpr (dim == 3)
+    if (named.of_plane && is_invariant(psi, Invariance::along_axle))
+      return file<2>(mid_plane_section(psi), held, format, tolerance);
+  const auto wheel = without_gil([&] {
+    return fitted_wheel(held.value, psi, held.value.title, tolerance.value_or(usual_tolerance<dim>));
+  });
   if (wheel) return written(named, wheel->model);
   std::string text;
   for (const cad::OutlineFault& fault : wheel.failure()) text += (text.empty() ? "" : "; ") + fault.what;

@@ -192,6 +192,13 @@ class Exports(Folder):
         with self.assertRaisesRegex(ValueError, "dxf"):
             study.export(self.folder / "wheel.txt")
 
+    def test_of_extruded_wheels_are_those_of_plane_ones(self):
+        solid = ww.Study(small().replace({"wheel.dimension": 3, "grid.axial_cells": 2}))
+        solid.export(self.folder / "solid.dxf")
+        ww.Study(small()).export(self.folder / "plane.dxf")
+        sizes = [(self.folder / f"{name}.dxf").stat().st_size for name in ("solid", "plane")]
+        self.assertAlmostEqual(sizes[0] / sizes[1], 1, delta=0.2)
+
     def test_have_the_layers_of_the_case(self):
         study = ww.Study(ww.Case.preset("caster-tyre"))
         study.export(self.folder / "wheel.dxf")

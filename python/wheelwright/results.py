@@ -63,15 +63,14 @@ def analyze(state: State) -> RollingAnalysis:
 def export(case: Case, shape: Shape, file: str | PathLike[str], tolerance: float | None = None) -> None:
     """Writes a shape for CAD and the workshop, in millimetres, in the format of the file's ending.
 
-    In 2D dxf, svg, stl, 3mf, step, vtu and png, in 3D those that hold surfaces: docs/export.md describes them.
+    dxf, svg, stl, 3mf, step, vtu or png; for a wheel whose shape changes along the axle those that hold surfaces.
+    docs/export.md describes them.
 
     Args:
         tolerance: the distance of the curves, in 3D of the triangles, from the shape's edges [m]; by default
             0.01 mm, in 3D 0.1 mm.
     """
     path = Path(file)
-    if tolerance is None:
-        tolerance = 1e-5 if case.dimension == 2 else 1e-4
     content = of(case.dimension).file(shape._core, case._core, path.suffix.lstrip("."), tolerance)
     path.write_bytes(content)
 
