@@ -146,6 +146,13 @@ std::vector<Case> starting_points() {
     warm.load.speed = 1;
     warm.heat.convection = 20;
     cases.push_back(warm);
+    Case soft = plain;
+    soft.contact.theta = 0;
+    soft.contact.gamma_0 = 20;
+    soft.grid.tread_levels = 0;
+    Case soft_layer = soft;
+    soft_layer.layers = {MaterialLayer{}};
+    soft_layer.layers[0].outer_radius = 0.25;
     Case layered = plain;
     layered.layers = {{.name = "kerb", .outer_radius = 0.25}};
     layered.layers[0].density = 2000;
@@ -155,7 +162,7 @@ std::vector<Case> starting_points() {
     Case of_layer = layered;
     of_layer.objective = {.minimize = built_in("peak_von_mises")};
     cases.insert(cases.end(), {plain, frictionless, loads, bounded, minimizing, equal, kerb, orthotropic,
-                               layered, of_layer});
+                               layered, of_layer, soft, soft_layer});
   }
   return cases;
 }

@@ -190,8 +190,8 @@ void expect_second_order(const RollingModel<2>& model) {
     for (size_t k = 0; k < test.orders.size(); ++k) {
       const double predicted = std::abs(test.derivative * test.steps[k + 1]);
       if (test.remainders[k + 1] < 1e-5 * predicted) continue;  // almost linear
-      EXPECT_GT(test.orders[k], 1.9)
-          << functions[f].name << " = " << test.value << ", " << test.remainders[k + 1] / predicted;
+      EXPECT_GT(test.orders[k], 1.9) << functions[f].name << " = " << test.value << ", "
+                                     << test.remainders[k + 1] / predicted;
     }
   }
 }
