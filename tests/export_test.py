@@ -181,13 +181,13 @@ def exact_reference():
 # --- Readers --------------------------------------------------------------------------------------------
 
 
-def dxf_polygons(path):
+def dxf_polygons(path, without=()):
     """By layer, the closed polygons that ezdxf makes of the curves."""
     document = ezdxf.readfile(path)
     assert not document.audit().errors, document.audit().errors
     assert document.dxfversion >= "AC1015" and document.header["$INSUNITS"] == 4
     chains = {}
-    parts = [(entity.dxf.layer, entity) for entity in document.modelspace()]
+    parts = [(entity.dxf.layer, entity) for entity in document.modelspace() if entity.dxf.layer not in without]
     for layer, entity in parts:
         kind = entity.dxftype()
         if kind == "LWPOLYLINE":
@@ -711,6 +711,169 @@ class Solid(unittest.TestCase):
         wheelwright("export", self.source, "--format", self.FORMATS, "--output", again)
         for ending in self.FORMATS.split(","):
             self.assertEqual((again / f"solid.{ending}").read_bytes(), (self.folder / f"solid.{ending}").read_bytes(), ending)
+
+
+TURNED = """
+[wheel]
+dimension = 3
+width = 0.11
+sectors = 64
+[[holes.groove]]
+inner_radius = 0.225
+outer_radius = 0.31
+depth = 0.05
+fillet = 0.02
+side = "smaller_z"
+[[holes.groove]]
+inner_radius = 0.24
+outer_radius = 0.32
+depth = 0.03
+fillet = 0.015
+side = "larger_z"
+[material]
+poissons_ratio = 0.3
+[grid]
+radial_cells = 28
+angular_cells = 192
+axial_cells = 12
+degree = 1
+level_set_degree = 2
+tread_levels = 0
+[optimizer]
+made = "turned"
+"""
+
+
+class Turned(unittest.TestCase):
+    """A body of revolution without mirror symmetry, exported by its profile; in mm."""
+
+    GROOVES = [(225, 310, 0, 50, 20), (240, 320, 110, -30, 15)]  # radii, side face, depth along z, fillet
+
+    @classmethod
+    def setUpClass(cls):
+        cls.case = temporary / "turned.toml"
+        cls.case.write_text(TURNED)
+        cls.folder = temporary / "turned_export"
+        cls.told = wheelwright("export", cls.case, "--format", "dxf,svg,step,stl", "--output", cls.folder)
+        volume = math.pi * (340**2 - 200**2) * 110
+        for low, high, _, depth, fillet in cls.GROOVES:  # Pappus: a square without its quarter of a disc is missing at each corner
+            corner = fillet**2 * (1 - math.pi / 4)
+            volume -= math.pi * (high**2 - low**2) * abs(depth) - 2 * math.pi * corner * (low + high)
+        cls.volume = volume
+
+    @staticmethod
+    def read_step(path, points=()):
+        text = "".join(f"{x} {y} {z}\n" for x, y, z in points)
+        lines = subprocess.run([read_step, path], input=text, capture_output=True, text=True, check=True).stdout.splitlines()
+        facts = dict(line.split(" ", 1) for line in lines if " " in line and not line.startswith("body "))
+        facts["bodies"] = [line.split(" ", 5)[1:] for line in lines if line.startswith("body ")]
+        return facts, [line == "in" for line in lines if " " not in line]
+
+    def is_material(self, z, radius, margin):
+        """Nothing within a margin of an edge."""
+        distances = [min(radius - 200, 340 - radius, z, 110 - z)]
+        for low, high, face, depth, fillet in self.GROOVES:
+            along, across = abs(z - face), radius - (low + high) / 2
+            p, q = along - abs(depth) + fillet, abs(across) - (high - low) / 2 + fillet
+            distances.append(math.hypot(max(p, 0), max(q, 0)) + min(max(p, q), 0) - fillet)
+        nearest = min(distances, key=abs)
+        return None if abs(nearest) < margin else all(d > 0 for d in distances)
+
+    def test_step(self):
+        points, expected = [], []
+        for i in range(40):
+            for j in range(23):
+                z, radius, azimuth = 2 + 2.7 * i, 203 + 6 * j, 1.3 * i + 0.7 * j
+                if (material := self.is_material(z, radius, 0.5)) is not None:
+                    points.append((radius * math.cos(azimuth), radius * math.sin(azimuth), z))
+                    expected.append(material)
+        self.assertGreater(len(points), 800)
+        facts, found = self.read_step(self.folder / "turned.step", points)
+        self.assertEqual(found, expected)
+        self.assertEqual((facts["unit"], facts["valid"], facts["solids"]), ("millimetre", "1", "1"))
+        # The level set rounds the edges of the fillets, where it has kinks.
+        self.assertAlmostEqual(float(facts["volume"]), self.volume, delta=5e-4 * self.volume)
+        told = float(re.search(r"volume +(\d+) mm\^3", self.told)[1])
+        self.assertAlmostEqual(float(facts["volume"]), told, delta=1e-6 * told)
+        self.assertAlmostEqual(float(facts["usual_volume"]), told, delta=3e-4 * told)
+        # Rim and tread; the side faces, which the grooves divide, and at most the bottoms of the grooves.
+        self.assertGreaterEqual(int(facts["cylinder"]), 2)
+        self.assertIn(int(facts["plane"]), range(4, 7))
+        self.assertLess(int(facts["other"]), 60)
+        for corner, at in (("lower", (-340, -340, 0)), ("upper", (340, 340, 110))):
+            for value, expected_value in zip(facts[corner].split(), at):
+                self.assertAlmostEqual(float(value), expected_value, delta=1e-3)
+
+    def test_report(self):
+        self.assertRegex(self.told, r"profile +1 loop: \d+ lines")
+        self.assertRegex(self.told, r"bodies +1, with 0 closed cavities")
+        self.assertLess(abs(float(re.search(r"mm\^3, ([+-][\d.e+-]+) of", self.told)[1])), 1e-4)
+        self.assertLessEqual(float(re.search(r"deviation +([\d.]+) mm", self.told)[1]), 0.01)
+        # Between the bottoms of the grooves.
+        self.assertAlmostEqual(float(re.search(r"smallest wall +([\d.]+) mm", self.told)[1]), 20, delta=0.5)
+
+    def test_dxf_is_the_profile_above_the_axle(self):
+        layers = dxf_polygons(self.folder / "turned.dxf", without=("AXLE",))
+        (polygon,) = layers["OUTER_EDGE"]
+        self.assertAlmostEqual(min(z for z, _ in polygon), 0, places=9)
+        self.assertAlmostEqual(max(z for z, _ in polygon), 110, places=9)
+        volume = 2 * math.pi * sum((bz - az) * -(ar * ar + ar * br + br * br) / 6
+                                   for (az, ar), (bz, br) in zip(polygon, polygon[1:] + polygon[:1]))
+        self.assertAlmostEqual(abs(volume), self.volume, delta=5e-4 * self.volume)
+        drawing = ezdxf.readfile(self.folder / "turned.dxf")
+        (axle,) = drawing.modelspace().query('LINE[layer=="AXLE"]')
+        self.assertEqual((axle.dxf.start.y, axle.dxf.end.y), (0, 0))
+        self.assertEqual(drawing.layers.get("AXLE").dxf.linetype, "CENTER")
+
+    def test_svg_is_the_profile_above_the_axle(self):
+        margin, scale = 0.02 * 340, 5
+        picture = self.folder / "svg.png"
+        subprocess.run(["rsvg-convert", "--width", str(round(scale * (110 + 2 * margin))), "--output", picture,
+                        self.folder / "turned.svg"], check=True)
+        pixels = Image.open(picture).convert("RGBA").load()
+        for i in range(40):
+            for j in range(23):
+                z, radius = 2 + 2.7 * i, 203 + 6 * j
+                if (material := self.is_material(z, radius, 0.5)) is not None:
+                    self.assertEqual(pixels[int(scale * (margin + z)), int(scale * (margin + 340 - radius))][3] > 128, material, (z, radius))
+
+    def test_stl_is_the_surface(self):
+        found = admesh(self.folder / "turned.stl")
+        self.assertEqual(found["Number of parts"], 1)
+        self.assertAlmostEqual(found["Volume"], self.volume, delta=2e-3 * self.volume)
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        again = temporary / "turned_again"
+        wheelwright("export", self.case, "--format", "dxf,svg,step", "--output", again)
+        for ending in ("dxf", "svg", "step"):
+            self.assertEqual((again / f"turned.{ending}").read_bytes(), (self.folder / f"turned.{ending}").read_bytes(), ending)
+
+    def test_step_has_a_body_per_layer(self):
+        case = temporary / "turned_layers.toml"
+        case.write_text(TURNED + """
+[[material.layer]]
+name = "core"
+outer_radius = 0.26
+youngs_modulus = 2e9
+poissons_ratio = 0.3
+[[material.layer]]
+name = "tyre"
+inner_radius = 0.31
+youngs_modulus = 30e6
+poissons_ratio = 0.3
+""")
+        folder = temporary / "turned_layers"
+        wheelwright("export", case, "--format", "step,dxf", "--by-layer", "--output", folder)
+        facts, _ = self.read_step(folder / "turned_layers.step")
+        self.assertEqual(facts["valid"], "1")
+        self.assertEqual([name for *_, name in facts["bodies"]], ["core", "material", "tyre"])
+        for valid, *_, name in facts["bodies"]:
+            self.assertEqual(valid, "1", name)
+        whole = float(self.read_step(self.folder / "turned.step")[0]["volume"])
+        self.assertAlmostEqual(sum(float(body[1]) for body in facts["bodies"]), whole, delta=2e-4 * whole)
+        self.assertEqual({entity.dxf.layer for entity in ezdxf.readfile(folder / "turned_layers.dxf").modelspace()},
+                         {"core", "material", "tyre", "AXLE"})
+        self.assertTrue((folder / "turned_layers-tyre.step").exists())
 
 
 class Command(unittest.TestCase):

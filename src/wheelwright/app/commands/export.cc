@@ -16,6 +16,7 @@
 #include "wheelwright/output/export/formats.h"
 #include "wheelwright/output/export/plugin.h"
 #include "wheelwright/run/results/fitted_wheel.h"
+#include "wheelwright/run/results/turned_wheel.h"
 #include "wheelwright/run/study/roughness_warning.h"
 #include "wheelwright/shape/geometry/invariance.h"
 #include "wheelwright/shape/geometry/section.h"
@@ -31,11 +32,15 @@ constexpr double default_tolerance = 0.01, default_tolerance_3d = 0.1, min_toler
 constexpr double finest_share = 1e-6;   // smallest tolerance, as a fraction of the outer radius
 
 using Formats = std::vector<const ExportFormat*>;
+/// Their paths and contents.
+using Files = std::vector<std::pair<fs::path, std::string>>;
 
 bool can_hold(const ExportFormat& format, const WheelModel*) { return format.of_plane != nullptr; }
 bool can_hold(const ExportFormat& format, const SurfaceModel*) { return format.of_surface != nullptr; }
+bool can_hold(const ExportFormat& format, const TurnedModel*) { return format.of_profile != nullptr; }
 std::string file(const ExportFormat& format, const WheelModel& wheel) { return format.of_plane(wheel); }
 std::string file(const ExportFormat& format, const SurfaceModel& wheel) { return format.of_surface(wheel); }
+std::string file(const ExportFormat& format, const TurnedModel& wheel) { return format.of_profile(wheel); }
 
 std::string names_of_formats(bool (*is_named)(const ExportFormat&)) {
   std::string names;
@@ -123,6 +128,9 @@ class ExportCommand : public Subcommand {
       return export_wheel(
           WheelInput<2>{solid->source, mid_plane_section(solid->shape), solid->name, solid->which});
     }
+    if (const auto* solid = std::get_if<WheelInput<3>>(&*wheel);
+        solid && is_invariant(solid->shape, Invariance::about_axle))
+      return export_turned(*solid);
     return std::visit([this](const auto& input) { return export_wheel(input); }, *wheel);
   }
 
@@ -166,18 +174,43 @@ class ExportCommand : public Subcommand {
     const Formats chosen = formats(dim == 2 ? default_formats : default_formats_3d);
     if (!can_hold_or_tell<Model>(chosen)) return exit_usage;
     const double accuracy = tolerance(dim == 2 ? default_tolerance : default_tolerance_3d);
-    if (const double finest = finest_share * input.source.wheel.outer_radius; dim == 2 && accuracy < finest) {
-      print_err("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
-                finest * 1e3);
-      return exit_usage;
-    }
+    if (dim == 2 && is_too_fine(accuracy, input.source)) return exit_usage;
     const auto wheel = fitted(input, accuracy);
     if (!wheel) return refuse(wheel.failure());
-    std::vector<Named<Model>> models{{input.name, *wheel}};
-    if (by_layer_)
-      for (const auto& layer : wheel->layers)
-        models.push_back({stem(input.name, layer.name), layer_model(*wheel, layer)});
-    return write(models, chosen);
+    Files files;
+    const int code = add_files(input.name, *wheel, chosen, files);
+    return code == exit_done ? write(files) : code;
+  }
+
+  /// Exports a body of revolution: its profile in the formats that hold one, its surface in the others.
+  int export_turned(const WheelInput<3>& input) const {
+    const double accuracy = tolerance(default_tolerance);
+    if (is_too_fine(accuracy, input.source)) return exit_usage;
+    Formats of_profile, of_surface;
+    for (const ExportFormat* format : formats(default_formats))
+      (can_hold(*format, static_cast<const TurnedModel*>(nullptr)) ? of_profile : of_surface)
+          .push_back(format);
+    Files files;
+    if (!of_profile.empty()) {
+      const auto wheel = fitted_profile(input, accuracy);
+      if (!wheel) return refuse(wheel.failure());
+      if (const int code = add_files(input.name, *wheel, of_profile, files); code != exit_done) return code;
+    }
+    if (!of_surface.empty()) {
+      const auto wheel = fitted(input, tolerance(default_tolerance_3d));
+      if (!wheel) return refuse(wheel.failure());
+      if (const int code = add_files(input.name, *wheel, of_surface, files); code != exit_done) return code;
+    }
+    return write(files);
+  }
+
+  /// Whether curves cannot be fitted that accurately; says so.
+  bool is_too_fine(double accuracy, const Case& source) const {
+    const double finest = finest_share * source.wheel.outer_radius;
+    if (accuracy >= finest) return false;
+    print_err("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
+              finest * 1e3);
+    return true;
   }
 
   using Faults = std::vector<cad::OutlineFault>;
@@ -198,6 +231,15 @@ class ExportCommand : public Subcommand {
     if (!wheel) return wheel.failure();
     fmt::print("{:<16} {}\n{}", "wheel", wheel->model.title, text(wheel->whole));
     warn_of_pieces(wheel->whole.report.bodies);
+    return std::move(wheel->model);
+  }
+
+  static Expected<TurnedModel, Faults> fitted_profile(const WheelInput<3>& input, double accuracy) {
+    auto wheel = fitted_turned_wheel(input.source, input.shape, title(input), accuracy);
+    if (!wheel) return wheel.failure();
+    fmt::print("{:<16} {}\n{:<16} a body of revolution\n{}", "wheel", wheel->model.title, "shape",
+               text(wheel->report));
+    warn_of_pieces(wheel->report.bodies);
     return std::move(wheel->model);
   }
 
@@ -223,27 +265,41 @@ class ExportCommand : public Subcommand {
     return exit_refused;
   }
 
-  /// Creates the contents of all files before it writes the first.
+  /// The contents of the files of a wheel, and on request of its layers as files of their own. All are
+  /// created before the first is written.
   template <class Model>
-  int write(const std::vector<Named<Model>>& models, const Formats& formats) const {
-    const fs::path folder = output_ ? fs::path(*output_) : fs::path(".");
-    std::vector<std::pair<fs::path, std::string>> files;
+  int add_files(const std::string& name, const Model& wheel, const Formats& formats, Files& files) const {
+    std::vector<Named<Model>> models{{name, wheel}};
+    if (by_layer_)
+      for (const auto& layer : wheel.layers)
+        models.push_back({stem(name, layer.name), layer_model(wheel, layer)});
     for (const auto& [stem, model] : models)
-      for (const ExportFormat* format : formats) {
-        const fs::path path = folder / fmt::format("{}.{}", stem, format->name);
-        if (!force_ && has_entry(path)) {
-          print_err("{}: exists already; choose another folder with --output, or replace it with --force\n",
-                    path.string());
-          return exit_refused;
-        }
-        try {
-          files.emplace_back(path, file(*format, model));
-        } catch (const MissingPlugin& missing) {
-          print_err("wheelwright {}: {}: {}\n", name(), format->name, missing.what());
-          return exit_refused;
-        }
-      }
-    if (!is_there(folder)) make_folder(folder);
+      for (const ExportFormat* format : formats)
+        if (const int code = add_file(stem, model, *format, files); code != exit_done) return code;
+    return exit_done;
+  }
+
+  template <class Model>
+  int add_file(const std::string& stem, const Model& model, const ExportFormat& format, Files& files) const {
+    const fs::path path = folder() / fmt::format("{}.{}", stem, format.name);
+    if (!force_ && has_entry(path)) {
+      print_err("{}: exists already; choose another folder with --output, or replace it with --force\n",
+                path.string());
+      return exit_refused;
+    }
+    try {
+      files.emplace_back(path, file(format, model));
+    } catch (const MissingPlugin& missing) {
+      print_err("wheelwright {}: {}: {}\n", name(), format.name, missing.what());
+      return exit_refused;
+    }
+    return exit_done;
+  }
+
+  fs::path folder() const { return output_ ? fs::path(*output_) : fs::path("."); }
+
+  int write(const Files& files) const {
+    if (!is_there(folder())) make_folder(folder());
     for (const auto& [path, bytes] : files) {
       write_atomically(path, bytes);
       fmt::print("{:<16} {}\n", "written", path.string());

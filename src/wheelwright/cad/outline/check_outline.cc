@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "wheelwright/cad/outline/outline_checks.h"
 #include "wheelwright/cad/outline/triangulation.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/geometry/contour.h"
-#include "wheelwright/shape/geometry/nearest_point.h"
 #include "wheelwright/shape/geometry/zero_contour.h"
 
 namespace wheelwright::cad {
@@ -19,52 +18,19 @@ constexpr double largest_area_error = 1e-4;
 /// Distance of points on edges, as a share of the outer radius.
 constexpr double step_of_deviation = 1.5e-3;
 
-using Faults = std::vector<OutlineFault>;
-
 bool is_circle_about_axle(const Loop& loop) {
   return loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::bore;
 }
 
-void check_closed(const Outline& outline, double slack, Faults& faults) {
-  for (const Loop& loop : outline.loops) {
-    const Curve* before = &loop.curves.back();
-    for (const Curve& curve : loop.curves) {
-      if (const double miss = distance(end_of(*before), start_of(curve)); !(miss <= slack))
-        faults.push_back({fmt::format("the {} is open by {:.3g} mm at {}", name(loop.kind), miss * 1e3,
-                                      place_of(start_of(curve)))});
-      before = &curve;
-    }
-  }
-}
-
-/// The material must be on the left, at a distance that is larger than the tolerance.
 void check_sides(const Outline& outline, const ZeroContour& zero, double tolerance, Faults& faults) {
-  constexpr double parameter = 0.5, distance_in_tolerances = 3;
   for (const Loop& loop : outline.loops) {
     if (is_circle_about_axle(loop)) {
       if ((signed_area(loop) > 0) != (loop.kind == LoopKind::outer_edge))
         faults.push_back({fmt::format("the {} has the wrong orientation", name(loop.kind))});
       continue;
     }
-    for (const Curve& curve : loop.curves) {
-      const CurvePoint middle = at(curve, parameter);
-      const double scale = distance_in_tolerances * tolerance / norm(middle.velocity);
-      const Vec<2> left = scale * left_of(middle.velocity);
-      const auto psi = [&](double side) { return zero.at(middle.position + side * left).psi; };
-      if (!(psi(1) < psi(-1)))
-        faults.push_back({fmt::format("the material is not on the left of the {} at {}", name(loop.kind),
-                                      place_of(middle.position))});
-    }
+    for (const Curve& curve : loop.curves) check_side(loop.kind, curve, zero, tolerance, place_of, faults);
   }
-}
-
-void check_crossings(const std::vector<Polygon>& polygons, Faults& faults) {
-  constexpr std::size_t max_shown = 10;
-  const auto places = crossings(polygons);
-  for (std::size_t i = 0; i < std::min(places.size(), max_shown); ++i)
-    faults.push_back({"edges cross or touch at " + place_of(places[i])});
-  if (places.size() > max_shown)
-    faults.push_back({fmt::format("edges cross or touch at {} more places", places.size() - max_shown)});
 }
 
 /// Area of the whole wheel with circles for the outer and inner sides of the cells [m^2].
@@ -84,85 +50,29 @@ double checked_area_error(const Outline& outline, const LevelSet<2>& psi, Faults
   return error;
 }
 
-struct Deviation {
-  double distance = 0;
-  Vec<2> place{};
-  void include(double d, const Vec<2>& p) {
-    if (d <= distance) return;
-    distance = d;
-    place = p;
-  }
-};
-
-/// The deviation of the edges of holes and islands from the zero contour; infinite for a point from which the
-/// contour is not found.
+/// The deviation of the edges of holes and islands from the zero contour.
 Deviation of_curves(const Outline& outline, const ZeroContour& zero) {
-  constexpr int points_per_cubic = 16;
   Deviation deviation;
-  for (const Loop& loop : outline.loops) {
-    if (is_circle_about_axle(loop)) continue;
-    for (const Curve& curve : loop.curves) {
-      const auto* spline = std::get_if<Spline>(&curve);
-      const int n = points_per_cubic * (spline ? static_cast<int>(spline->points.size()) : 8);
-      for (int i = 0; i <= n; ++i) {
-        const Vec<2> p = at(curve, static_cast<double>(i) / n).position;
-        const auto q = zero.projection(p);
-        deviation.include(q ? distance(p, *q) : INFINITY, p);
-      }
-    }
-  }
+  for (const Loop& loop : outline.loops)
+    if (!is_circle_about_axle(loop))
+      for (const Curve& curve : loop.curves) deviation.include(deviation_of(curve, zero));
   return deviation;
 }
 
-/// Polygons with corners at most `step` apart, and the corners' neighbours.
-struct DenseCorners {
-  std::vector<Vec<2>> points;
-  std::vector<int> before, after;
-
-  DenseCorners(const std::vector<Polygon>& polygons, double step) {
-    for (const Polygon& polygon : polygons) {
-      const int first = static_cast<int>(points.size());
-      for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Vec<2>&a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const int parts = std::max(1, static_cast<int>(std::ceil(distance(a, b) / step)));
-        for (int k = 0; k < parts; ++k) points.push_back(a + static_cast<double>(k) * (b - a) / parts);
-      }
-      const int end = static_cast<int>(points.size());
-      for (int i = first; i < end; ++i) {
-        before.push_back(i == first ? end - 1 : i - 1);
-        after.push_back(i + 1 == end ? first : i + 1);
-      }
-    }
-  }
-};
-
 /// The deviation of the points of the zero contour from the edges.
 Deviation of_contour(const LevelSet<2>& psi, const std::vector<Polygon>& polygons) {
-  const DenseCorners dense(polygons, step_of_deviation * psi.lattice.grid().outer_radius);
-  const NearestPoint<2> nearest(dense.points);
-  Deviation deviation;
-  for (const Contour& contour : material_contours(psi, contour_subdivisions(psi.lattice.degree()))) {
-    if (contour.kind != ContourKind::free) continue;
-    for (const Vec<2>& p : contour.points) {
-      const int corner = nearest.index_of_nearest(p);
-      const Vec<2>& q = dense.points[corner];
-      deviation.include(std::min(distance_to_segment(p, dense.points[dense.before[corner]], q),
-                                 distance_to_segment(p, q, dense.points[dense.after[corner]])),
-                        p);
-    }
-  }
-  return deviation;
+  std::vector<Vec<2>> points;
+  for (const Contour& contour : material_contours(psi, contour_subdivisions(psi.lattice.degree())))
+    if (contour.kind == ContourKind::free)
+      points.insert(points.end(), contour.points.begin(), contour.points.end());
+  return deviation_of(points, polygons, step_of_deviation * psi.lattice.grid().outer_radius);
 }
 
 Deviation checked_deviation(const Outline& outline, const LevelSet<2>& psi, const ZeroContour& zero,
                             const std::vector<Polygon>& polygons, double tolerance, Faults& faults) {
   Deviation deviation = of_curves(outline, zero);
-  const Deviation back = of_contour(psi, polygons);
-  deviation.include(back.distance, back.place);
-  if (!(deviation.distance <= tolerance))
-    faults.push_back(
-        {fmt::format("curve and contour are {:.4g} mm apart at {}, more than the tolerance of {:.4g} mm",
-                     deviation.distance * 1e3, place_of(deviation.place), tolerance * 1e3)});
+  deviation.include(of_contour(psi, polygons));
+  check_deviation(deviation, tolerance, place_of, faults);
   return deviation;
 }
 
@@ -194,9 +104,9 @@ Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& 
   std::vector<Polygon> polygons;
   for (const Loop& loop : outline.loops) polygons.push_back(flattened(loop, share_of_chords * tolerance));
   Faults faults;
-  check_closed(outline, share_of_ends * grid.outer_radius, faults);
+  check_closed(outline, share_of_ends * grid.outer_radius, place_of, faults);
   check_sides(outline, zero, tolerance, faults);
-  check_crossings(polygons, faults);
+  check_crossings(polygons, place_of, faults);
   const double area_error = checked_area_error(outline, psi, faults);
   const Deviation deviation = checked_deviation(outline, psi, zero, polygons, tolerance, faults);
   if (!faults.empty()) return faults;
@@ -214,7 +124,7 @@ std::vector<OutlineFault> crossing_faults(const Outline& outline, double toleran
   std::vector<Polygon> polygons;
   for (const Loop& loop : outline.loops) polygons.push_back(flattened(loop, tolerance));
   Faults faults;
-  check_crossings(polygons, faults);
+  check_crossings(polygons, place_of, faults);
   return faults;
 }
 

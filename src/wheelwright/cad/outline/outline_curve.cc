@@ -115,6 +115,16 @@ Curve rotated(const Curve& curve, double angle) {
   return spline;
 }
 
+Curve mirrored(const Curve& curve, double middle) {
+  const auto image = [middle](const Vec<2>& p) { return Vec<2>{2 * middle - p[0], p[1]}; };
+  if (const auto* line = std::get_if<Line>(&curve)) return Line{image(line->start), image(line->end)};
+  if (const auto* arc = std::get_if<Arc>(&curve))
+    return Arc{image(arc->centre), arc->radius, std::numbers::pi - arc->begin, -arc->sweep};
+  Spline spline = std::get<Spline>(curve);
+  std::ranges::transform(spline.points, spline.points.begin(), image);
+  return spline;
+}
+
 Curve reversed(const Curve& curve) {
   if (const auto* line = std::get_if<Line>(&curve)) return Line{line->end, line->start};
   if (const auto* arc = std::get_if<Arc>(&curve))

@@ -7,8 +7,8 @@
 
 namespace wheelwright::cad {
 
-// Curves in the plane of the wheel, in Cartesian coordinates [m] of the body frame. Each runs from its start
-// to its end.
+// Curves in the plane of the wheel, in Cartesian coordinates [m] of the body frame, or in the half-plane of a
+// profile (profile.h). Each runs from its start to its end.
 
 struct Line {
   Vec<2> start, end;
@@ -40,6 +40,9 @@ CurvePoint at(const Curve& curve, double parameter);
 bool is_circle(const Curve& curve);
 
 Curve rotated(const Curve& curve, double angle);
+
+/// The mirror image in the line where the first coordinate is `middle` [m].
+Curve mirrored(const Curve& curve, double middle);
 
 /// The curve from its end to its start.
 Curve reversed(const Curve& curve);

@@ -33,6 +33,7 @@ enum Handle : int {
   h_style = 0x17,
   h_viewport = 0x18,
   h_layer = 0x19,
+  h_centre_line = 0x1a,
   h_paper_record = 0x1b,
   h_paper_begin = 0x1c,
   h_paper_end = 0x1d,
@@ -46,6 +47,7 @@ enum Handle : int {
 
 constexpr cad::LoopKind kinds[] = {cad::LoopKind::outer_edge, cad::LoopKind::bore, cad::LoopKind::hole,
                                    cad::LoopKind::island};
+constexpr const char *axle_layer = "AXLE", *centre_line = "CENTER";
 constexpr int colours[] = {7, 5, 1, 3};  // white or black, blue, red, green
 
 /// Groups of a code and a value.
@@ -101,7 +103,12 @@ Groups section(std::string_view name, const Groups& content) {
   return Groups().text(0, "SECTION").text(2, name).add(content).text(0, "ENDSEC");
 }
 
-Groups header(double reach, int next_handle) {
+/// What a drawing shows: two opposite corners [m].
+struct Extent {
+  Vec<2> low, high;
+};
+
+Groups header(const Extent& extent, int next_handle) {
   constexpr int millimetres = 4, metric = 1;
   Groups g;
   g.text(9, "$ACADVER").text(1, "AC1015");
@@ -109,8 +116,8 @@ Groups header(double reach, int next_handle) {
   g.text(9, "$HANDSEED").handle(5, next_handle);
   g.text(9, "$INSUNITS").integer(70, millimetres);
   g.text(9, "$MEASUREMENT").integer(70, metric);
-  g.text(9, "$EXTMIN").point_in_space(10, {-reach, -reach});
-  g.text(9, "$EXTMAX").point_in_space(10, {reach, reach});
+  g.text(9, "$EXTMIN").point_in_space(10, extent.low);
+  g.text(9, "$EXTMAX").point_in_space(10, extent.high);
   return section("HEADER", g);
 }
 
@@ -132,45 +139,66 @@ Groups record(std::string_view type, int handle, int owner, std::string_view kin
   return g;
 }
 
-Groups line_type(int handle, std::string_view name) {
+/// `dashes`: lengths of dashes, and negative ones of gaps [mm]; none for a continuous line.
+Groups line_type(int handle, std::string_view name, const std::vector<double>& dashes = {}) {
   constexpr int alignment = 'A';
-  return record("LTYPE", handle, h_line_types, "AcDbLinetypeTableRecord", name)
-      .integer(70, 0)
-      .text(3, "")
-      .integer(72, alignment)
-      .integer(73, 0)
-      .number(40, 0);
+  Groups g = record("LTYPE", handle, h_line_types, "AcDbLinetypeTableRecord", name);
+  g.integer(70, 0).text(3, "").integer(72, alignment).integer(73, static_cast<int>(dashes.size()));
+  double length = 0;
+  for (const double dash : dashes) length += std::abs(dash);
+  g.number(40, length);
+  for (const double dash : dashes) g.number(49, dash).integer(74, 0);
+  return g;
 }
 
-Groups layer_record(int handle, std::string_view name, int colour) {
+Groups layer_record(int handle, std::string_view name, int colour, std::string_view line_type) {
   return record("LAYER", handle, h_layers, "AcDbLayerTableRecord", name)
       .integer(70, 0)
       .integer(62, colour)
-      .text(6, "Continuous");
+      .text(6, line_type);
 }
 
-Groups viewport(double reach) {
+Groups viewport(const Extent& extent) {
+  const Vec<2> size = extent.high - extent.low, middle = 0.5 * (extent.low + extent.high);
   Groups g = record("VPORT", h_viewport, h_viewports, "AcDbViewportTableRecord", "*Active");
-  g.integer(70, 0).number(10, 0).number(20, 0).number(11, 1).number(21, 1).number(12, 0).number(22, 0);
+  g.integer(70, 0).number(10, 0).number(20, 0).number(11, 1).number(21, 1).point(12, middle);
   g.number(16, 0).number(26, 0).number(36, 1).number(17, 0).number(27, 0).number(37, 0);
-  return g.length(40, 2.2 * reach).number(41, 1);
+  return g.length(40, 1.1 * std::max(size[0], size[1])).number(41, 1);
 }
 
-/// The names of the layers of the drawing: the kinds of loops, or the layers of materials.
-std::vector<std::string> layer_names(const WheelModel& wheel) {
+struct DrawingLayer {
+  std::string name;
+  int colour;
+  const char* line_type = "Continuous";
+};
+
+/// The layers of the drawing: the kinds of loops, or the layers of materials.
+template <class Model>
+std::vector<DrawingLayer> drawing_layers(const Model& wheel) {
   std::vector<std::string> names;
-  for (const WheelLayer& of_material : wheel.layers) names.push_back(of_material.name);
+  for (const auto& of_material : wheel.layers) names.push_back(of_material.name);
   if (names.empty())
     for (const cad::LoopKind kind : kinds) names.push_back(layer(kind));
-  return names;
+  std::vector<DrawingLayer> layers;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    layers.push_back({names[i], colours[i % std::size(colours)]});
+  return layers;
 }
 
-Groups tables(double reach, const std::vector<std::string>& names) {
-  Groups layers = layer_record(h_layer, "0", 7);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    layers.add(layer_record(h_first_layer + static_cast<int>(i), names[i], colours[i % std::size(colours)]));
+Groups layer_records(const std::vector<DrawingLayer>& layers) {
+  Groups records = layer_record(h_layer, "0", 7, "Continuous");
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    records.add(layer_record(h_first_layer + static_cast<int>(i), layers[i].name, layers[i].colour,
+                             layers[i].line_type));
+  return records;
+}
+
+Groups tables(const Extent& extent, const std::vector<DrawingLayer>& layers) {
   Groups line_types = line_type(h_line_type_by_block, "ByBlock");
   line_types.add(line_type(h_line_type_by_layer, "ByLayer")).add(line_type(h_line_type, "Continuous"));
+  const bool has_centre_line =
+      std::ranges::any_of(layers, [](const DrawingLayer& l) { return l.line_type == centre_line; });
+  if (has_centre_line) line_types.add(line_type(h_centre_line, centre_line, {12, -2, 2, -2}));
   Groups style = record("STYLE", h_style, h_styles, "AcDbTextStyleTableRecord", "Standard");
   style.integer(70, 0)
       .number(40, 0)
@@ -188,9 +216,9 @@ Groups tables(double reach, const std::vector<std::string>& names) {
   Groups blocks =
       record("BLOCK_RECORD", h_model_record, h_block_records, "AcDbBlockTableRecord", "*Model_Space");
   blocks.add(record("BLOCK_RECORD", h_paper_record, h_block_records, "AcDbBlockTableRecord", "*Paper_Space"));
-  Groups g = table("VPORT", h_viewports, 1, viewport(reach));
-  g.add(table("LTYPE", h_line_types, 3, line_types))
-      .add(table("LAYER", h_layers, 1 + static_cast<int>(names.size()), layers));
+  Groups g = table("VPORT", h_viewports, 1, viewport(extent));
+  g.add(table("LTYPE", h_line_types, has_centre_line ? 4 : 3, line_types))
+      .add(table("LAYER", h_layers, 1 + static_cast<int>(layers.size()), layer_records(layers)));
   g.add(table("STYLE", h_styles, 1, style)).add(table("VIEW", h_views, 0, {}));
   g.add(table("UCS", h_coordinate_systems, 0, {})).add(table("APPID", h_applications, 1, application));
   g.add(table("DIMSTYLE", h_dimension_styles, 1, dimension))
@@ -238,6 +266,15 @@ class Entities {
       add_polyline(loop, layer);
     else
       for (const cad::Curve& curve : loop.curves) add_curve(curve, layer);
+  }
+
+  /// All loops, each in the layer of its kind, or in that of its material.
+  template <class Model>
+  void add_wheel(const Model& wheel) {
+    if (wheel.layers.empty())
+      for (const cad::Loop& loop : wheel.outline.loops) add(loop, layer(loop.kind));
+    for (const auto& of_material : wheel.layers)
+      for (const cad::Loop& loop : of_material.outline.loops) add(loop, of_material.name);
   }
 
   const Groups& groups() const { return groups_; }
@@ -298,21 +335,35 @@ class Entities {
   int handle_ = h_first_entity;
 };
 
+template <class Model>
+std::string drawing(const Model& wheel, const Entities& entities, const Extent& extent,
+                    const std::vector<DrawingLayer>& layers) {
+  Groups file;
+  file.text(999, ascii(wheel.title + ", by " + wheel.program));
+  file.add(header(extent, entities.next_handle()));
+  file.add(section("CLASSES", {})).add(tables(extent, layers)).add(blocks());
+  file.add(section("ENTITIES", entities.groups())).add(objects()).text(0, "EOF");
+  return file.content();
+}
+
 }  // namespace
 
 std::string dxf(const WheelModel& wheel) {
   Entities entities;
-  if (wheel.layers.empty())
-    for (const cad::Loop& loop : wheel.outline.loops) entities.add(loop, layer(loop.kind));
-  for (const WheelLayer& of_material : wheel.layers)
-    for (const cad::Loop& loop : of_material.outline.loops) entities.add(loop, of_material.name);
+  entities.add_wheel(wheel);
   const double reach = wheel.shape.lattice.grid().outer_radius;
-  Groups file;
-  file.text(999, ascii(wheel.title + ", by " + wheel.program));
-  file.add(header(reach, entities.next_handle()));
-  file.add(section("CLASSES", {})).add(tables(reach, layer_names(wheel))).add(blocks());
-  file.add(section("ENTITIES", entities.groups())).add(objects()).text(0, "EOF");
-  return file.content();
+  return drawing(wheel, entities, {{-reach, -reach}, {reach, reach}}, drawing_layers(wheel));
+}
+
+std::string dxf(const TurnedModel& wheel) {
+  constexpr double share_of_margin = 0.02;
+  const double margin = share_of_margin * wheel.outer_radius;
+  Entities entities;
+  entities.add_wheel(wheel);
+  entities.add({cad::LoopKind::outer_edge, {cad::Line{{-margin, 0}, {wheel.width + margin, 0}}}}, axle_layer);
+  auto layers = drawing_layers(wheel);
+  layers.push_back({axle_layer, colours[0], centre_line});
+  return drawing(wheel, entities, {{-margin, 0}, {wheel.width + margin, wheel.outer_radius}}, layers);
 }
 
 }  // namespace wheelwright

@@ -11,4 +11,7 @@ namespace wheelwright {
 /// bulges; in other loops every curve is a LINE, an ARC or a SPLINE of degree 3.
 std::string dxf(const WheelModel& wheel);
 
+/// The profile in the same way, with the axle as a centre line in the layer AXLE.
+std::string dxf(const TurnedModel& wheel);
+
 }  // namespace wheelwright

@@ -28,17 +28,20 @@ std::string three_mf(const Model& wheel) {
   if (solid.bodies.empty()) solid.bodies.push_back({"wheel", mesh_of(wheel)});
   return plugin_file("3mf", "lib3mf-dev", solid);
 }
-std::string step(const WheelModel& wheel) { return plugin_file("step", "libocct-data-exchange-dev", wheel); }
+template <class Model>
+std::string step(const Model& wheel) {
+  return plugin_file("step", "libocct-data-exchange-dev", StepModel(&wheel));
+}
 
 constexpr ExportFormat formats[] = {
-    {"dxf", "outline, curves in layers", dxf, nullptr},
-    {"svg", "outline at true scale", svg_outline, nullptr},
-    {"stl", "solid, triangles", stl_of<WheelModel>, stl_of<SurfaceModel>},
-    {"3mf", "solid, triangles with unit", three_mf<WheelModel>, three_mf<SurfaceModel>},
-    {"step", "solid, exact faces", step, nullptr},
-    {"vtu", "shape for ParaView", vtu_shape, vtu_shape},
-    {"vtp", "surface for ParaView", nullptr, vtp_surface},
-    {"png", "picture", png, png},
+    {"dxf", "outline, curves in layers", dxf, nullptr, dxf},
+    {"svg", "outline at true scale", svg_outline, nullptr, svg_outline},
+    {"stl", "solid, triangles", stl_of<WheelModel>, stl_of<SurfaceModel>, nullptr},
+    {"3mf", "solid, triangles with unit", three_mf<WheelModel>, three_mf<SurfaceModel>, nullptr},
+    {"step", "solid, exact faces", step<WheelModel>, nullptr, step<TurnedModel>},
+    {"vtu", "shape for ParaView", vtu_shape, vtu_shape, nullptr},
+    {"vtp", "surface for ParaView", nullptr, vtp_surface, nullptr},
+    {"png", "picture", png, png, nullptr},
 };
 
 }  // namespace

@@ -12,10 +12,12 @@ namespace wheelwright {
 struct ExportFormat {
   std::string_view name;     ///< also the extension of its files
   std::string_view meaning;  ///< a few words
-  /// The file contents for a plane wheel, and for one whose shape changes along the axle; null if the format
-  /// cannot represent it. They throw MissingPlugin and std::runtime_error.
+  /// The file contents for a plane wheel, for the surface of one whose shape changes along the axle, and for
+  /// the profile of a body of revolution; null if the format cannot represent it. They throw MissingPlugin
+  /// and std::runtime_error.
   std::string (*of_plane)(const WheelModel&);
   std::string (*of_surface)(const SurfaceModel&);
+  std::string (*of_profile)(const TurnedModel&);
 };
 
 std::span<const ExportFormat> export_formats();

@@ -2,10 +2,14 @@
 
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include "wheelwright/output/export/wheel_model.h"
 
 namespace wheelwright {
+
+/// A wheel with exact faces, a solid of extrusion or of revolution. Refers to its model.
+using StepModel = std::variant<const WheelModel*, const TurnedModel*>;
 
 /// A writer needs libraries that are not installed.
 class MissingPlugin : public std::runtime_error {
@@ -14,7 +18,7 @@ class MissingPlugin : public std::runtime_error {
 };
 
 /// The function that a plugin exports as `plugin_symbol`: appends a file of its format to `bytes`, or throws.
-/// The type of its model depends on the plugin: step takes a WheelModel, 3mf a SolidModel.
+/// The type of its model depends on the plugin: step takes a StepModel, 3mf a SolidModel.
 template <class Model>
 using PluginWriter = void(const Model& model, std::string& bytes);
 inline constexpr const char* plugin_symbol = "wheelwright_plugin_file";

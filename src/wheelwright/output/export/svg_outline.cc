@@ -43,9 +43,10 @@ std::string path_of(const cad::Outline& outline, double tolerance) {
 }
 
 /// The paths of the layers, which programs like Inkscape show as layers.
-std::string layer_paths(const WheelModel& wheel) {
+template <class Model>
+std::string layer_paths(const Model& wheel) {
   std::string groups;
-  for (const WheelLayer& layer : wheel.layers) {
+  for (const auto& layer : wheel.layers) {
     const auto [red, green, blue] = layer_colour(&layer - wheel.layers.data());
     std::string id = layer.name;
     std::ranges::replace(id, ' ', '-');
@@ -58,22 +59,51 @@ std::string layer_paths(const WheelModel& wheel) {
   return groups;
 }
 
+/// The paths of the material.
+template <class Model>
+std::string material_paths(const Model& wheel) {
+  return wheel.layers.empty()
+             ? fmt::format("<path id=\"material\" d=\"{}\"/>\n", path_of(wheel.outline, wheel.tolerance))
+             : layer_paths(wheel);
+}
+
+/// A page of this size [mm], with the origin of the drawing at a place on it.
+struct Page {
+  double width, height;
+  Vec<2> origin;
+};
+
+template <class Model>
+std::string document(const Model& wheel, const Page& page, const std::string& content) {
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" {}width=\"{:.6g}mm\" height=\"{:.6g}mm\" "
+      "viewBox=\"0 0 {:.6g} {:.6g}\">\n"
+      "<title>{}</title>\n<desc>{}; millimetres</desc>\n"
+      "<g id=\"wheel\" transform=\"translate({:.6g} {:.6g})\" fill=\"#3b6ea5\" fill-rule=\"evenodd\" "
+      "stroke=\"none\">\n{}</g>\n</svg>\n",
+      wheel.layers.empty() ? "" : "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" ",
+      page.width, page.height, page.width, page.height, escape_xml(wheel.title), escape_xml(wheel.program),
+      page.origin[0], page.origin[1], content);
+}
+
 }  // namespace
 
 std::string svg_outline(const WheelModel& wheel) {
   const double half = wheel.shape.lattice.grid().outer_radius * millimetres_per_metre;
-  const bool has_layers = !wheel.layers.empty();
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" {5}width=\"{0:.6g}mm\" height=\"{0:.6g}mm\" "
-      "viewBox=\"0 0 {0:.6g} {0:.6g}\">\n"
-      "<title>{2}</title>\n<desc>{3}; millimetres</desc>\n"
-      "<g id=\"wheel\" transform=\"translate({1:.6g} {1:.6g})\" fill=\"#3b6ea5\" fill-rule=\"evenodd\" "
-      "stroke=\"none\">\n{4}</g>\n</svg>\n",
-      2 * half, half, escape_xml(wheel.title), escape_xml(wheel.program),
-      has_layers ? layer_paths(wheel)
-                 : fmt::format("<path id=\"material\" d=\"{}\"/>\n", path_of(wheel.outline, wheel.tolerance)),
-      has_layers ? "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" " : "");
+  return document(wheel, {2 * half, 2 * half, {half, half}}, material_paths(wheel));
+}
+
+std::string svg_outline(const TurnedModel& wheel) {
+  constexpr double share_of_margin = 0.02;
+  const double width = wheel.width * millimetres_per_metre,
+               radius = wheel.outer_radius * millimetres_per_metre, margin = share_of_margin * radius;
+  const std::string axle = fmt::format(
+      "<path id=\"axle\" d=\"M{:.6g} 0H{:.6g}\" fill=\"none\" stroke=\"#000000\" stroke-width=\"{:.3g}\" "
+      "stroke-dasharray=\"{:.3g} {:.3g} {:.3g} {:.3g}\"/>\n",
+      -margin, width + margin, 0.05 * margin, 2 * margin, 0.3 * margin, 0.3 * margin, 0.3 * margin);
+  return document(wheel, {width + 2 * margin, radius + 2 * margin, {margin, radius + margin}},
+                  material_paths(wheel) + axle);
 }
 
 }  // namespace wheelwright

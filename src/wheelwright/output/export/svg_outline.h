@@ -13,4 +13,7 @@ namespace wheelwright {
 /// elliptic arcs.
 std::string svg_outline(const WheelModel& wheel);
 
+/// The profile in the same way, with the radius upwards and the axle as the centre line "axle".
+std::string svg_outline(const TurnedModel& wheel);
+
 }  // namespace wheelwright

@@ -29,6 +29,15 @@ SurfaceModel layer_model(const SurfaceModel& wheel, const SurfaceLayer& layer) {
           .map_degree = wheel.map_degree};
 }
 
+TurnedModel layer_model(const TurnedModel& wheel, const TurnedLayer& layer) {
+  return {.title = title_of(wheel.title, layer.name),
+          .program = wheel.program,
+          .outline = layer.outline,
+          .width = wheel.width,
+          .outer_radius = wheel.outer_radius,
+          .tolerance = wheel.tolerance};
+}
+
 std::array<std::uint8_t, 3> layer_colour(std::size_t layer) {
   constexpr std::array<std::array<std::uint8_t, 3>, 6> colours{
       {{59, 110, 165}, {232, 176, 75}, {46, 139, 87}, {209, 73, 91}, {123, 79, 163}, {0, 139, 139}}};

@@ -50,6 +50,24 @@ struct SurfaceModel {
   std::vector<SurfaceLayer> layers = {};
 };
 
+struct TurnedLayer {
+  std::string name;
+  cad::Outline outline;  ///< its part of the profile
+};
+
+/// A body of revolution by its profile (cad/outline/profile.h), which turns about the axle. Placed in files
+/// like the solid of a WheelModel; in drawings the axle is the line y = 0, with z to the right and the radius
+/// upwards.
+struct TurnedModel {
+  std::string title;
+  std::string program;
+  cad::Outline outline;  ///< the profile
+  double width;          ///< [m]
+  double outer_radius;   ///< [m]
+  double tolerance;      ///< as in WheelModel
+  std::vector<TurnedLayer> layers = {};
+};
+
 /// A body of a SolidModel.
 struct SolidBody {
   std::string name;
@@ -66,6 +84,7 @@ struct SolidModel {
 /// A layer of a wheel as a wheel.
 WheelModel layer_model(const WheelModel& wheel, const WheelLayer& layer);
 SurfaceModel layer_model(const SurfaceModel& wheel, const SurfaceLayer& layer);
+TurnedModel layer_model(const TurnedModel& wheel, const TurnedLayer& layer);
 
 /// The circles between the layers.
 template <class Model>

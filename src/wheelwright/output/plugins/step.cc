@@ -26,8 +26,9 @@
 #include "wheelwright/output/export/plugin.h"
 #include "wheelwright/output/plugins/step_solid.h"
 
-// Writes the solid as a STEP file (AP214) by OpenCASCADE: planes above and below, cylinders along circles and
-// arcs, B-spline surfaces along splines. A wheel of several materials has one body per layer.
+// Writes the solid as a STEP file (AP214) by OpenCASCADE. An extruded one has planes above and below,
+// cylinders along circles and arcs, B-spline surfaces along splines; one of revolution has cylinders, planes,
+// cones, tori and surfaces of revolution. A wheel of several materials has one body per layer.
 
 namespace wheelwright {
 namespace {
@@ -37,7 +38,8 @@ Handle(TCollection_HAsciiString) text(const std::string& t) {
 }
 
 /// The header contains no time or place, so that the same wheel gives the same bytes.
-void set_header(const Handle(StepData_StepModel) & model, const WheelModel& wheel) {
+template <class Model>
+void set_header(const Handle(StepData_StepModel) & model, const Model& wheel) {
   APIHeaderSection_MakeHeader header(model);
   header.SetName(text(wheel.title));
   header.SetTimeStamp(text("1970-01-01T00:00:00"));
@@ -47,7 +49,8 @@ void set_header(const Handle(StepData_StepModel) & model, const WheelModel& whee
   header.SetAuthorisation(text(""));
 }
 
-TopoDS_Shape valid_solid(const WheelModel& wheel) {
+template <class Model>
+TopoDS_Shape valid_solid(const Model& wheel) {
   TopoDS_Shape shape = solid_of(wheel);
   if (!BRepCheck_Analyzer(shape).IsValid())
     throw std::runtime_error("OpenCASCADE did not produce a valid solid");
@@ -65,13 +68,14 @@ Quantity_Color colour(std::size_t layer) {
 
 /// Adds the layers one after the other, with their names and colours: OpenCASCADE would write the colours of
 /// the parts of an assembly in the order of their addresses.
-void add_layers(const WheelModel& wheel, STEPCAFControl_Writer& writer) {
+template <class Model>
+void add_layers(const Model& wheel, STEPCAFControl_Writer& writer) {
   Handle(TDocStd_Document) document;
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const Handle(XCAFDoc_ColorTool) colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
   for (std::size_t k = 0; k < wheel.layers.size(); ++k) {
-    const WheelLayer& layer = wheel.layers[k];
+    const auto& layer = wheel.layers[k];
     const TDF_Label body = shapes->AddShape(valid_solid(layer_model(wheel, layer)), Standard_False);
     TDataStd_Name::Set(body, TCollection_ExtendedString(layer.name.c_str(), Standard_True));
     colours->SetColor(body, colour(k), XCAFDoc_ColorSurf);
@@ -80,7 +84,8 @@ void add_layers(const WheelModel& wheel, STEPCAFControl_Writer& writer) {
 }
 
 /// What a writer has converted, as text.
-std::string text_of(STEPControl_Writer& writer, const WheelModel& wheel) {
+template <class Model>
+std::string text_of(STEPControl_Writer& writer, const Model& wheel) {
   const Handle(StepData_StepModel) model = writer.Model();
   set_header(model, wheel);
   StepData_StepWriter step(model);
@@ -90,7 +95,8 @@ std::string text_of(STEPControl_Writer& writer, const WheelModel& wheel) {
   return stream.str();
 }
 
-std::string file(const WheelModel& wheel) {
+template <class Model>
+std::string file(const Model& wheel) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   STEPCAFControl_Writer of_layers;
   STEPControl_Writer& writer = of_layers.ChangeWriter();
@@ -108,9 +114,9 @@ std::string file(const WheelModel& wheel) {
 }  // namespace wheelwright
 
 extern "C" __attribute__((visibility("default"))) void wheelwright_plugin_file(
-    const wheelwright::WheelModel& wheel, std::string& bytes) {
+    const wheelwright::StepModel& model, std::string& bytes) {
   try {
-    bytes += wheelwright::file(wheel);
+    bytes += std::visit([](const auto* wheel) { return wheelwright::file(*wheel); }, model);
   } catch (const Standard_Failure& failure) {
     throw std::runtime_error(std::string("OpenCASCADE: ") + failure.GetMessageString());
   }

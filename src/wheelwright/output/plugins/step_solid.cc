@@ -3,7 +3,10 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepLib.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepTools_Modification.hxx>
 #include <BRepTools_Modifier.hxx>
 #include <BRep_Builder.hxx>
@@ -15,8 +18,13 @@
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
+#include <functional>
+#include <gp.hxx>
 #include <gp_Ax2d.hxx>
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
@@ -56,10 +64,12 @@ Handle(Geom_BSplineCurve) whole_curve(const cad::Spline& spline) {
   return new Geom_BSplineCurve(poles, knots, multiplicities, degree);
 }
 
-/// Splits a spline into as few edges as the usual rule integrates to within `tolerance` [m].
-std::vector<TopoDS_Edge> edges(const cad::Spline& spline, double tolerance) {
+/// Divides a spline between its cubics: the numbers of cubics before the first part and after each part.
+using Division = std::function<std::vector<int>(const cad::Spline&)>;
+
+std::vector<TopoDS_Edge> edges(const cad::Spline& spline, const Division& division) {
   const Handle(Geom_BSplineCurve) whole = whole_curve(spline);
-  const auto ends = cad::spline_parts(spline, tolerance);
+  const auto ends = division(spline);
   std::vector<TopoDS_Edge> edges;
   for (size_t i = 1; i < ends.size(); ++i) {
     const Handle(Geom_BSplineCurve) part = Handle(Geom_BSplineCurve)::DownCast(whole->Copy());
@@ -69,16 +79,32 @@ std::vector<TopoDS_Edge> edges(const cad::Spline& spline, double tolerance) {
   return edges;
 }
 
-std::vector<TopoDS_Edge> edges(const cad::Line& line, double) { return {edge(line)}; }
-std::vector<TopoDS_Edge> edges(const cad::Arc& arc, double) { return {edge(arc)}; }
+std::vector<TopoDS_Edge> edges(const cad::Line& line, const Division&) { return {edge(line)}; }
+std::vector<TopoDS_Edge> edges(const cad::Arc& arc, const Division&) { return {edge(arc)}; }
 
-/// A loop whose splines are split into edges that the usual rule integrates to within `tolerance` [m].
-TopoDS_Wire wire(const cad::Loop& loop, double tolerance) {
+/// A loop, with one edge for every part of its splines.
+TopoDS_Wire wire(const cad::Loop& loop, const Division& division) {
   BRepBuilderAPI_MakeWire wire;
   for (const cad::Curve& curve : loop.curves)
-    for (const TopoDS_Edge& part : std::visit([&](const auto& c) { return edges(c, tolerance); }, curve))
+    for (const TopoDS_Edge& part : std::visit([&](const auto& c) { return edges(c, division); }, curve))
       wire.Add(part);
   return wire.Wire();
+}
+
+/// As few parts as the usual rule integrates to within a tolerance [m].
+Division few_parts(double tolerance) {
+  return [tolerance](const cad::Spline& spline) { return cad::spline_parts(spline, tolerance); };
+}
+
+/// Parts of four cubics: by the usual rule, OpenCASCADE integrates over a surface of revolution with a fixed
+/// number of points, which suffice for these.
+std::vector<int> short_parts(const cad::Spline& spline) {
+  constexpr int cubics = 4;
+  const int n = static_cast<int>(spline.points.size()) - cad::Spline::degree;
+  std::vector<int> ends;
+  for (int i = 0; i < n; i += cubics) ends.push_back(i);
+  ends.push_back(n);
+  return ends;
 }
 
 /// Exchanges the parameters of B-spline surfaces, so that their curves run along V: along U, OpenCASCADE
@@ -126,9 +152,9 @@ class CurvesAlongV : public BRepTools_Modification {
 };
 
 TopoDS_Shape solid(const cad::Body& body, const WheelModel& wheel) {
-  const double tolerance = 0.5 * wheel.tolerance;
-  BRepBuilderAPI_MakeFace face(gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), wire(*body.edge, tolerance));
-  for (const cad::Loop* hole : body.holes) face.Add(wire(*hole, tolerance));
+  const Division division = few_parts(0.5 * wheel.tolerance);
+  BRepBuilderAPI_MakeFace face(gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), wire(*body.edge, division));
+  for (const cad::Loop* hole : body.holes) face.Add(wire(*hole, division));
   const TopoDS_Shape prism =
       BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, wheel.width * millimetres_per_metre));
   const TopoDS_Shape splines =
@@ -136,9 +162,35 @@ TopoDS_Shape solid(const cad::Body& body, const WheelModel& wheel) {
   return BRepTools_Modifier(splines, new CurvesAlongV).ModifiedShape(splines);
 }
 
-}  // namespace
+/// From the plane of a profile, where x is axial and y the radius, to the half-plane of azimuth 0.
+gp_Trsf to_half_plane() {
+  gp_Trsf turn;
+  turn.SetDisplacement(gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)),
+                       gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(0, 1, 0), gp_Dir(0, 0, 1)));
+  return turn;
+}
 
-TopoDS_Shape solid_of(const WheelModel& wheel) {
+/// The closed shell that a loop of a profile describes about the axle, with its outer side outside.
+TopoDS_Shell turned_shell(const cad::Loop& loop) {
+  const BRepBuilderAPI_MakeFace face(gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), wire(loop, short_parts));
+  const TopoDS_Shape placed = BRepBuilderAPI_Transform(face.Face(), to_half_plane(), Standard_True).Shape();
+  TopoDS_Solid solid =
+      TopoDS::Solid(TopExp_Explorer(BRepPrimAPI_MakeRevol(placed, gp::OZ()).Shape(), TopAbs_SOLID).Current());
+  BRepLib::OrientClosedSolid(solid);
+  return TopoDS::Shell(TopExp_Explorer(solid, TopAbs_SHELL).Current());
+}
+
+TopoDS_Shape solid(const cad::Body& body, const TurnedModel&) {
+  TopoDS_Solid result;
+  BRep_Builder builder;
+  builder.MakeSolid(result);
+  builder.Add(result, turned_shell(*body.edge));
+  for (const cad::Loop* cavity : body.holes) builder.Add(result, turned_shell(*cavity).Reversed());
+  return result;
+}
+
+template <class Model>
+TopoDS_Shape solids(const Model& wheel) {
   const auto all = bodies(wheel.outline);
   if (all.size() == 1) return solid(all.front(), wheel);
   TopoDS_Compound compound;
@@ -147,5 +199,10 @@ TopoDS_Shape solid_of(const WheelModel& wheel) {
   for (const cad::Body& body : all) builder.Add(compound, solid(body, wheel));
   return compound;
 }
+
+}  // namespace
+
+TopoDS_Shape solid_of(const WheelModel& wheel) { return solids(wheel); }
+TopoDS_Shape solid_of(const TurnedModel& wheel) { return solids(wheel); }
 
 }  // namespace wheelwright

@@ -11,4 +11,8 @@ namespace wheelwright {
 /// surfaces per spline as other programs measure accurately.
 TopoDS_Shape solid_of(const WheelModel& wheel);
 
+/// The same for a body of revolution: a cylinder or plane for every side of the section, and for the other
+/// curves cylinders, planes, cones, spheres and tori, and as few surfaces of revolution per spline.
+TopoDS_Shape solid_of(const TurnedModel& wheel);
+
 }  // namespace wheelwright

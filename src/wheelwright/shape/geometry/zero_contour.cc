@@ -5,7 +5,10 @@
 
 namespace wheelwright {
 
-ZeroContour::ZeroContour(const LevelSet<2>& psi) : grid_(psi.lattice.grid()), degree_(psi.lattice.degree()) {
+ZeroContour::ZeroContour(const LevelSet<2>& psi)
+    : ZeroSet(psi.lattice.grid().outer_radius, psi.lattice.grid().resolution()),
+      grid_(psi.lattice.grid()),
+      degree_(psi.lattice.degree()) {
   for (int cell = 0; cell < grid_.n_cells(); ++cell) nodal_.push_back(psi.cell_values(cell));
   for (int row = 0; row < grid_.cells[0]; ++row) maps_.emplace_back(grid_, degree_, std::array{row, 0});
 }
@@ -62,23 +65,6 @@ ZeroContour::Value ZeroContour::at(const Vec<2>& point) const {
   }
   const Vec<2> gradient = transpose_times<2>(inverse<2>(maps_[where.row].jacobian(shape)), reference);
   return {psi, rotated<2>(gradient, where.column * grid_.column_angle())};
-}
-
-std::optional<Vec<2>> ZeroContour::projection(const Vec<2>& point) const {
-  constexpr int max_steps = 20;
-  const double converged = 1e-12 * grid_.outer_radius, farthest = grid_.resolution();
-  Vec<2> x = point;
-  for (int k = 0; k < max_steps; ++k) {
-    const Value value = at(x);
-    const double slope2 = dot<2>(value.gradient, value.gradient);
-    const Vec<2> step = -value.psi / slope2 * value.gradient;
-    const double length = norm<2>(step);
-    if (!(length < farthest)) return {};
-    x += step;
-    if (distance(x, point) > farthest) return {};
-    if (length < converged) return x;
-  }
-  return {};
 }
 
 }  // namespace wheelwright

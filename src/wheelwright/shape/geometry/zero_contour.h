@@ -1,29 +1,21 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "wheelwright/shape/geometry/cell_map.h"
 #include "wheelwright/shape/geometry/level_set.h"
+#include "wheelwright/shape/geometry/zero_set.h"
 
 namespace wheelwright {
 
 /// {psi = 0} in the full ring, evaluated at any point of the plane: on the isoparametric cells of the lattice
 /// of psi, in Cartesian coordinates [m] of the body frame.
-class ZeroContour {
+class ZeroContour final : public ZeroSet {
  public:
   explicit ZeroContour(const LevelSet<2>& psi);
 
-  struct Value {
-    double psi;  ///< [m]
-    Vec<2> gradient;
-  };
   /// Outside the ring the polynomials of its outermost cells are continued.
-  Value at(const Vec<2>& point) const;
-
-  /// The point of the contour reached by Newton's method along the gradient from a nearby point; to second
-  /// order in its distance it is the nearest one. Empty if the iteration does not converge within a cell.
-  std::optional<Vec<2>> projection(const Vec<2>& point) const;
+  Value at(const Vec<2>& point) const override;
 
  private:
   /// A point in the cell that contains it: position in the unit cell, and the column of the ring.
