@@ -216,6 +216,46 @@ TEST(LargeDeformation, ShapeGradientsPassTheTaylorTestUnderALoad) {
   expect_second_order(model);
 }
 
+/// Straight spokes on the azimuths between sectors.
+LevelSet<2> spokes(const PolarGrid<2>& grid, double width) {
+  LevelSet<2> psi{Lattice<2>(grid, 2), {}};
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<2> p = psi.lattice.polar_point(i);
+    const double azimuth = p[1] - grid.sector_angle() * std::round(p[1] / grid.sector_angle());
+    psi.values.push_back(
+        std::min({p[0] - 0.2213, 0.3087 - p[0], p[0] * std::abs(azimuth) - width / 2 - 0.00037}));
+  }
+  return psi;
+}
+
+/// A straight spoke above the ground stays straight in Newton's method, but buckles to a side.
+TEST(LargeDeformation, BucklingOfASymmetricWheelIsNamed) {
+  auto model = soft_wheel(8e6);
+  model.grid = {0.20, 0.34, 0.12, 16, {10, 14}};
+  const auto psi = spokes(model.grid, 0.008);
+  const auto at = [&](double travel) {
+    model.travel = travel;
+    return LargeDeformationProblem<2>::create(model)->solve({psi, nullptr}, {{{0}}, {1}});
+  };
+  const auto straight = at(0.001);
+  ASSERT_TRUE(straight) << straight.failure().detail;
+  const auto buckled = at(0.006);
+  ASSERT_FALSE(buckled);
+  EXPECT_EQ(buckled.failure().reason, FailureReason::not_positive_definite) << buckled.failure().detail;
+  ASSERT_TRUE(buckled.failure().instability);
+  const auto& [eigenvalue, mode] = *buckled.failure().instability;
+  EXPECT_LT(eigenvalue, 0);
+  // The mode changes its sign in the mirror.
+  const RingSpace<2>& space = straight->ring->forms.space();
+  for (int node = 0; node < space.n_nodes(); ++node) {
+    auto p = space.position_in_sector(node);
+    p[1] += node / space.n_nodes_of_sector() * space.lattice().nodes()[1];
+    const int image = space.number({p[0], -p[1]});
+    EXPECT_NEAR(mode[2 * node], -mode[2 * image], 1e-5);
+    EXPECT_NEAR(mode[2 * node + 1], mode[2 * image + 1], 1e-5);
+  }
+}
+
 TEST(LargeDeformation, RefusesWhatItDoesNotKnow) {
   const auto model = soft_wheel(8e6);
   const auto is_refused = [](const RollingModel<2>& refused) {

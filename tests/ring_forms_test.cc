@@ -253,17 +253,66 @@ struct Manufactured {
   }
 };
 
-/// The errors of displacement and deformation gradient in L2 over the material, relative.
-std::array<double, 2> manufactured_errors(int degree, int radial, const Material& material, double size) {
-  const Manufactured manufactured{size};
-  const auto g = grid<2>(radial, 2 * radial);
-  const auto domain = *cut_domain(one_hole(g), degree + 3);
-  const auto elements = table<2>(g, degree, material);
-  const RingForms<2> forms(domain, elements);
-  const StoredEnergy energy = StoredEnergy::of(material);
-  const auto piola = [&](const Vec<2>& x) { return response<2>(energy, manufactured.deformation(x)).piola; };
-  const auto body_force = [&](const Vec<2>& x) {
-    constexpr double h = 1e-4;  // fourth order
+/// A ring with holes under the body force and the tractions of a manufactured solution.
+class ManufacturedRing {
+ public:
+  ManufacturedRing(int degree, int radial, const Material& material, double size)
+      : exact_{size},
+        degree_(degree),
+        grid_(grid<2>(radial, 2 * radial)),
+        domain_(*cut_domain(one_hole(grid_), degree + 3)),
+        elements_(table<2>(grid_, degree, material)),
+        forms_(domain_, elements_),
+        energy_(StoredEnergy::of(material)) {}
+
+  /// The errors of displacement and deformation gradient in L2 over the material, relative.
+  std::array<double, 2> errors() const {
+    const auto start =
+        interpolated<2>(forms_.space(), [&](const Vec<2>& x) { return exact_.displacement(x); });
+    const auto v = solve(forms_, start, std::vector<bool>(start.size(), false), loads());
+    std::array<double, 2> errors{}, sizes{};
+    visit([&](const RingForms<2>::Cell& cell, int sector, double angle) {
+      const HyperelasticElement<2>& element = forms_.element(cell);
+      HyperelasticElement<2>::Dofs dofs;
+      forms_.space().gather(cell.cell, sector, v.data(), dofs.data());
+      const auto nodal = element.cartesian(dofs.data());
+      for (const auto& point : cell.points->points) {
+        const Vec<2> x = rotated<2>(point.position, angle), exact = exact_.displacement(x);
+        Vec<2> u{};
+        for (int i = 0; i < 2; ++i)
+          for (int a = 0; a < element.n_nodes(); ++a) u[i] += nodal[i][a] * point.value[a];
+        const Vec<2> difference = rotated<2>(u, angle) - exact;
+        errors[0] += point.weight * dot(difference, difference);
+        sizes[0] += point.weight * dot(exact, exact);
+        const Mat<2> gradient = exact_.deformation(x),
+                     computed = turned(element.deformation(point, nodal), angle);
+        for (int i = 0; i < 2; ++i)
+          for (int j = 0; j < 2; ++j) {
+            errors[1] += point.weight * std::pow(computed[i][j] - gradient[i][j], 2);
+            sizes[1] += point.weight * std::pow(gradient[i][j] - (i == j), 2);
+          }
+      }
+    });
+    return {std::sqrt(errors[0] / sizes[0]), std::sqrt(errors[1] / sizes[1])};
+  }
+
+ private:
+  /// Q f Q^T.
+  static Mat<2> turned(const Mat<2>& f, double angle) {
+    const Mat<2> q{{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}}};
+    Mat<2> result{};
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        for (int k = 0; k < 2; ++k)
+          for (int l = 0; l < 2; ++l) result[i][j] += q[i][k] * f[k][l] * q[j][l];
+    return result;
+  }
+
+  Mat<2> piola(const Vec<2>& x) const { return response<2>(energy_, exact_.deformation(x)).piola; }
+
+  /// -Div P by differences of the fourth order.
+  Vec<2> body_force(const Vec<2>& x) const {
+    constexpr double h = 1e-4;
     Vec<2> f{};
     for (int j = 0; j < 2; ++j)
       for (const auto& [steps, factor] :
@@ -274,88 +323,70 @@ std::array<double, 2> manufactured_errors(int degree, int radial, const Material
         for (int i = 0; i < 2; ++i) f[i] -= factor * p[i][j] / h;
       }
     return f;
-  };
-  std::vector<double> loads(forms.space().n_dofs(), 0.0);
-  const auto add = [&](const RingForms<2>::Cell& cell, int sector, const Vec<2>& xi, double weight,
-                       const Vec<2>& force, double angle) {
-    const auto& element = forms.element(cell);
-    const auto point = element.at(xi);
-    const Vec<2> local = rotated<2>(force, -angle);
+  }
+
+  /// Calls visit_cell(cell, sector, azimuth of its frame) for all cells of the ring.
+  template <class Visit>
+  void visit(Visit visit_cell) const {
+    for (int sector = 0; sector < grid_.n_sectors; ++sector)
+      for (const auto& cell : forms_.cells())
+        visit_cell(cell, sector,
+                   grid_.cell_position(cell.cell)[1] * grid_.column_angle() + sector * grid_.sector_angle());
+  }
+
+  std::vector<double> loads() const {
+    std::vector<double> loads(forms_.space().n_dofs(), 0.0);
+    visit([&](const RingForms<2>::Cell& cell, int sector, double angle) {
+      const auto of_cell = cell_loads(cell, angle);
+      forms_.space().scatter(cell.cell, sector, of_cell.data(), loads.data());
+    });
+    return loads;
+  }
+
+  HyperelasticElement<2>::Dofs cell_loads(const RingForms<2>::Cell& cell, double angle) const {
+    const HyperelasticElement<2>& element = forms_.element(cell);
     HyperelasticElement<2>::Nodal nodal{};
-    for (int i = 0; i < 2; ++i)
-      for (int a = 0; a < element.n_nodes(); ++a) nodal[i][a] = weight * local[i] * point.value[a];
-    HyperelasticElement<2>::Dofs of_cell{};
-    element.add_to_dofs(nodal, of_cell.data());
-    forms.space().scatter(cell.cell, sector, of_cell.data(), loads.data());
-  };
-  const auto visit = [&](const auto& visit_point) {
-    for (int sector = 0; sector < g.n_sectors; ++sector)
-      for (const auto& cell : forms.cells()) {
-        const double angle = g.cell_position(cell.cell)[1] * g.column_angle() + sector * g.sector_angle();
-        visit_point(cell, sector, angle);
-      }
-  };
-  visit([&](const RingForms<2>::Cell& cell, int sector, double angle) {
-    std::vector<ReferencePoint<2>> rule = unit_cell_rule<2>(degree + 2);
-    for (const auto& cut : domain.cut)
-      if (cut.cell == cell.cell) rule = cut.material;
-    for (const auto& q : rule) {
-      const auto point = forms.element(cell).at(q.xi, q.weight);
-      add(cell, sector, q.xi, point.weight, body_force(rotated<2>(point.position, angle)), angle);
-    }
-    const CellMap<2> map(g, degree, g.cell_position(cell.cell));
-    const auto add_traction = [&](const Vec<2>& xi, const Vec<2>& reference_normal, double weight) {
-      const auto surface = map_surface<2>(map.jacobian(ShapeFunctions<2>(degree, xi)), reference_normal);
-      const Mat<2> p = piola(rotated<2>(forms.element(cell).at(xi).position, angle));
-      const Vec<2> normal = rotated<2>(surface.normal, angle);
-      add(cell, sector, xi, weight * surface.scale, {dot(p[0], normal), dot(p[1], normal)}, angle);
+    const auto add = [&](const HyperelasticElement<2>::Point& point, double weight, const Vec<2>& force) {
+      const Vec<2> local = rotated<2>(force, -angle);
+      for (int i = 0; i < 2; ++i)
+        for (int a = 0; a < element.n_nodes(); ++a) nodal[i][a] += weight * local[i] * point.value[a];
     };
-    for (const auto& cut : domain.cut)
+    for (const auto& point : cell.points->points)
+      add(point, point.weight, body_force(rotated<2>(point.position, angle)));
+    const CellMap<2> map(grid_, degree_, grid_.cell_position(cell.cell));
+    const auto add_traction = [&](const Vec<2>& xi, const Vec<2>& reference_normal, double weight) {
+      const auto surface = map_surface<2>(map.jacobian(ShapeFunctions<2>(degree_, xi)), reference_normal);
+      const auto point = element.at(xi);
+      const Mat<2> p = piola(rotated<2>(point.position, angle));
+      const Vec<2> normal = rotated<2>(surface.normal, angle);
+      add(point, weight * surface.scale, {dot(p[0], normal), dot(p[1], normal)});
+    };
+    for (const auto& cut : domain_.cut)
       if (cut.cell == cell.cell)
         for (const auto& q : cut.boundary) add_traction(q.xi, q.normal, q.weight);
-    if (cell.row + 1 == g.cells[0])
-      for (const auto& q : unit_cell_rule<1>(degree + 2)) add_traction({1, q.xi[0]}, {1, 0}, q.weight);
-  });
-  const auto v = solve(
-      forms, interpolated<2>(forms.space(), [&](const Vec<2>& x) { return manufactured.displacement(x); }),
-      std::vector<bool>(loads.size(), false), loads);
-  std::array<double, 2> errors{}, sizes{};
-  visit([&](const RingForms<2>::Cell& cell, int sector, double angle) {
-    HyperelasticElement<2>::Dofs dofs;
-    forms.space().gather(cell.cell, sector, v.data(), dofs.data());
-    const auto nodal = forms.element(cell).cartesian(dofs.data());
-    for (const auto& point : cell.points->points) {
-      const Vec<2> x = rotated<2>(point.position, angle), exact = manufactured.displacement(x);
-      const Mat<2> gradient = manufactured.deformation(x),
-                   local = forms.element(cell).deformation(point, nodal);
-      Vec<2> u{};
-      for (int i = 0; i < 2; ++i)
-        for (int a = 0; a < forms.element(cell).n_nodes(); ++a) u[i] += nodal[i][a] * point.value[a];
-      const Vec<2> difference = rotated<2>(u, angle) - exact;
-      errors[0] += point.weight * dot(difference, difference);
-      sizes[0] += point.weight * dot(exact, exact);
-      // F = Q F_local Q^T
-      const Mat<2> q{{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}}};
-      for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j) {
-          double value = 0;
-          for (int k = 0; k < 2; ++k)
-            for (int l = 0; l < 2; ++l) value += q[i][k] * local[k][l] * q[j][l];
-          errors[1] += point.weight * std::pow(value - gradient[i][j], 2);
-          sizes[1] += point.weight * std::pow(gradient[i][j] - (i == j), 2);
-        }
-    }
-  });
-  return {std::sqrt(errors[0] / sizes[0]), std::sqrt(errors[1] / sizes[1])};
-}
+    if (cell.row + 1 == grid_.cells[0])
+      for (const auto& q : unit_cell_rule<1>(degree_ + 2)) add_traction({1, q.xi[0]}, {1, 0}, q.weight);
+    HyperelasticElement<2>::Dofs dofs{};
+    element.add_to_dofs(nodal, dofs.data());
+    return dofs;
+  }
+
+  Manufactured exact_;
+  int degree_;
+  PolarGrid<2> grid_;
+  CutDomain<2> domain_;
+  HyperelasticTable<2> elements_;
+  RingForms<2> forms_;
+  StoredEnergy energy_;
+};
 
 TEST(RingForms, ConvergesToAManufacturedSolutionWithTheOrdersOfTheTheory) {
   for (const auto& [ratio, size] : {std::pair(0.3, 0.1), {0.48, 0.01}})
     for (const int degree : {1, 2}) {
       if (degree == 1 && ratio > 0.4) continue;  // it locks
       const Material material{modulus, ratio};
-      const auto coarse = manufactured_errors(degree, 6, material, size),
-                 fine = manufactured_errors(degree, 12, material, size);
+      const auto coarse = ManufacturedRing(degree, 6, material, size).errors(),
+                 fine = ManufacturedRing(degree, 12, material, size).errors();
       const double of_displacement = std::log2(coarse[0] / fine[0]),
                    of_gradient = std::log2(coarse[1] / fine[1]);
       EXPECT_GT(of_displacement, degree + 0.75) << ratio << ' ' << coarse[0] << ' ' << fine[0];
@@ -438,7 +469,7 @@ struct TwistedRing {
       const double radius = 0.2 + 0.14 * rule.points[q];
       const auto [r, dr, psi, dpsi] = at(radius);
       sum += rule.weights[q] * 0.14 * 2 * std::numbers::pi * radius *
-             energy_density<2>(energy, {{{dr, 0}, {r * dpsi, r / radius}}});
+             response<2>(energy, {{{dr, 0}, {r * dpsi, r / radius}}}).energy;
     }
     return sum;
   }

@@ -67,7 +67,6 @@ void add_material_loads(const LargeDeformation<dim>& solution, const Displacemen
                          by_deformation<dim>(element.stored_energy(), element.deformation(point, u), slope),
                          -point.weight, of_dofs.data());
       }
-      std::vector<double> of_ring(loads[position].columns(), 0.0);
       const auto nodes = forms.space().cell_nodes(cell, sector);
       for (size_t a = 0; a < nodes.size(); ++a)
         for (int c = 0; nodes[a] >= 0 && c < dim; ++c)

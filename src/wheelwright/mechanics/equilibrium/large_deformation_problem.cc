@@ -1,5 +1,6 @@
 #include "wheelwright/mechanics/equilibrium/large_deformation_problem.h"
 
+#include <cmath>
 #include <limits>
 
 #include "wheelwright/base/parallel.h"

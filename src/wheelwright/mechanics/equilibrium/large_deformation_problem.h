@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "wheelwright/mechanics/equilibrium/ring_equilibrium.h"
 #include "wheelwright/mechanics/equilibrium/tread_observer.h"
 #include "wheelwright/mechanics/rolling/rolling_problem.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "wheelwright/base/interrupt.h"
 #include "wheelwright/mechanics/contact/contact_solver.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <span>
 #include <vector>
 
 #include "wheelwright/linalg/sparse_symmetric.h"
@@ -31,7 +33,7 @@ class RingForms {
   /// The stored energy of the material; infinite if it is turned inside out somewhere [J/m or J].
   double energy(const std::vector<double>& v) const;
 
-  /// Adds the derivative of the stored energy, with the ghost penalty's forces beside it.
+  /// The energies, and their first derivatives.
   struct Forces {
     double energy;                 ///< the stored energy
     double ghost_energy;           ///< 1/2 v^T G v
@@ -55,8 +57,7 @@ class RingForms {
 
  private:
   void build_pattern();
-  /// The place, among the entries of the matrix, of the block of nodes a <= b, in the column of its first
-  /// component.
+  /// The place of node b among the neighbours of node a < b.
   int neighbour_index(int a, int b) const;
   void add_block(std::span<const int> nodes, const double* block, int stride,
                  std::vector<double>& values) const;

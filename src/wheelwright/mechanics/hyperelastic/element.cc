@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "wheelwright/mechanics/elasticity/isotropic_law.h"
 

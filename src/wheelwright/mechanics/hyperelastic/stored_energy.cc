@@ -1,5 +1,6 @@
 #include "wheelwright/mechanics/hyperelastic/stored_energy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -204,11 +205,6 @@ EnergyResponse<dim> response(const StoredEnergy& energy, const Mat<dim>& f, doub
   return invariant_response<dim>(energy, f, j, pressure);
 }
 
-template <int dim>
-double energy_density(const StoredEnergy& energy, const Mat<dim>& f) {
-  return response<dim>(energy, f).energy;
-}
-
 AxialSlopes axial_slopes(const StoredEnergy& energy, const Mat<2>& f) {
   AxialSlopes slopes;
   const bool is_free = energy.plane == Plane::stress;
@@ -233,7 +229,5 @@ AxialSlopes axial_slopes(const StoredEnergy& energy, const Mat<2>& f) {
 
 template decltype(response<2>) response<2>;
 template decltype(response<3>) response<3>;
-template decltype(energy_density<2>) energy_density<2>;
-template decltype(energy_density<3>) energy_density<3>;
 
 }  // namespace wheelwright

@@ -64,10 +64,6 @@ struct EnergyResponse {
 template <int dim>
 EnergyResponse<dim> response(const StoredEnergy& energy, const Mat<dim>& f, double pressure = 0);
 
-/// W alone; infinite if J <= 0.
-template <int dim>
-double energy_density(const StoredEnergy& energy, const Mat<dim>& f);
-
 /// Derivatives across the plane with respect to F when dim = 2.
 struct AxialSlopes {
   Mat<2> stretch{};  ///< dF_33 / dF_kl; zero in plane strain
