@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -63,6 +64,20 @@ class Examples(unittest.TestCase):
     def test_pictures(self):
         self.run_script("pictures", self.folder)
         self.assertGreater((Path(self.folder) / "pictures.png").stat().st_size, 10000)
+
+    def test_tutorial(self):
+        """The wheel and the own criterion of docs/python.md, with two shapes."""
+        page = (FOLDER.parents[1] / "docs" / "python.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+        wheel, criterion = blocks[0], next(block for block in blocks if "class PressureSquared" in block)
+        few = criterion.replace(".bound(", '.replace({"optimizer.iterations": 2}).bound(')
+        for code in (wheel, few + "print(study.taylor_test('pressure_squared').order > 1.9)"):
+            done = subprocess.run(
+                [sys.executable, "-c", code], capture_output=True, text=True, cwd=self.folder, timeout=300
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.rstrip().endswith("True"), done.stdout)
+        self.assertTrue((Path(self.folder) / "runs" / "own" / "report.html").exists())
 
 
 if __name__ == "__main__":
