@@ -361,14 +361,15 @@ TEST(LitWheel, MarksTheProjectionOfAPeak) {
       displaced(surface.points, field_points(surface, fields.lattice).values({"u", "m", fields.displacement}),
                 fields.lattice, picture),
       grid, fields.ground_azimuth);
-  int n_tried = 0;
-  for (std::size_t k = 0; k < points.size(); k += points.size() / 40) {
-    if (std::hypot(surface.points[k][0], surface.points[k][1]) < 0.999 * grid.outer_radius) continue;
-    ++n_tried;
+  picture.peak = DrawnPeak<3>{surface.points[0], 0.017};
+  EXPECT_EQ(deformed_svg(surface, fields.lattice, picture).find("<circle"), std::string::npos);
+  picture.is_peak_projected = true;
+  std::vector<std::size_t> at_tread;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (std::hypot(surface.points[k][0], surface.points[k][1]) > 0.999 * grid.outer_radius)
+      at_tread.push_back(k);
+  for (const std::size_t k : {at_tread.front(), at_tread[at_tread.size() / 2], at_tread.back()}) {
     picture.peak = DrawnPeak<3>{surface.points[k], 0.017};
-    picture.is_peak_projected = false;
-    EXPECT_EQ(deformed_svg(surface, fields.lattice, picture).find("<circle"), std::string::npos);
-    picture.is_peak_projected = true;
     const std::string whole = deformed_svg(surface, fields.lattice, picture);
     const std::string svg = whole.substr(std::min(whole.find("<circle"), whole.size()));  // after the bitmap
     static const std::regex ring("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"6\"");
@@ -380,7 +381,6 @@ TEST(LitWheel, MarksTheProjectionOfAPeak) {
     EXPECT_NE(svg.find("peak 17 mm"), std::string::npos);
     EXPECT_NE(svg.find("ring: its projection"), std::string::npos);
   }
-  EXPECT_GT(n_tried, 2);
 }
 
 // --- A wheel that leans ---------------------------------------------------------------------------------
