@@ -189,7 +189,7 @@ Case with_tables(Case c, const SectionArray<Struct>& section) {
     tables[1].name = "core";
     tables[0].inner_radius.reset();
     tables[0].outer_radius = 0.22;
-    make_orthotropic(tables[1]);
+    if (c.contact.theta != 0) make_orthotropic(tables[1]);  // large deformation knows isotropic layers only
     static_cast<FatigueConstants&>(tables[1]) = c.material;
   }
   if constexpr (std::is_same_v<Struct, MaterialCord>) {  // another place for it is at 0.25 m
