@@ -875,6 +875,22 @@ poissons_ratio = 0.3
                          {"core", "material", "tyre", "AXLE"})
         self.assertTrue((folder / "turned_layers-tyre.step").exists())
 
+    def test_a_groove_ends_at_a_solid_layer_without_a_skin(self):
+        case, folder = temporary / "turned_band.toml", temporary / "turned_band"
+        case.write_text(TURNED + """
+[[material.layer]]
+name = "band"
+inner_radius = 0.305
+outer_radius = 0.32
+holes = "none"
+youngs_modulus = 2e9
+poissons_ratio = 0.3
+""")
+        wheelwright("export", case, "--format", "step", "--output", folder)
+        facts, _ = self.read_step(folder / "turned_band.step")
+        self.assertEqual([(valid, solids, name) for valid, _, solids, _, name in facts["bodies"]],
+                         [("1", "1", "material"), ("1", "1", "band"), ("1", "1", "material 2")])
+
 
 class Command(unittest.TestCase):
     @classmethod

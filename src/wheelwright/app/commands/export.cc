@@ -106,9 +106,10 @@ class ExportCommand : public Subcommand {
 
   void declare(Options& options) override {
     add_wheel(options, input_);
-    options.text("--format", "NAME,NAME,...", formats_, check_formats,
-                 fmt::format("Any of {}; without it {}, for a wheel whose shape changes along the axle {}",
-                             names_of_formats(), default_formats, default_formats_3d));
+    options.text(
+        "--format", "NAME,NAME,...", formats_, check_formats,
+        fmt::format("Any of {}; without it {}, for a wheel in 3D that is neither extruded nor turned {}",
+                    names_of_formats(), default_formats, default_formats_3d));
     options.text("--tolerance", "MM", tolerance_, check_tolerance,
                  fmt::format("Maximum distance of the curves, in 3D of the triangles, from the shape's edges "
                              "[mm]; default {}, in 3D {}",

@@ -22,13 +22,15 @@ bool is_on_side(const Curve& curve, const TurnedSection& section) {
          both(1, section.outer_radius());
 }
 
-/// The deviation of the points of the contours from the edges.
-Deviation of_contours(const TurnedSection& section, const std::vector<std::vector<Vec<2>>>& polygons) {
-  constexpr double step = 1.5e-3;  // outer radii
+/// The deviation of the points of the contours from the edges. Points on the edges are so near to each other
+/// that the nearest one is hardly farther than the edge, also where another edge is as near.
+Deviation of_contours(const TurnedSection& section, const std::vector<std::vector<Vec<2>>>& polygons,
+                      double tolerance) {
+  const double step = std::max(0.5 * tolerance, 1e-5 * section.outer_radius());
   std::vector<Vec<2>> points;
   for (const SectionContour& contour : material_contours(section, contour_subdivisions(section.degree())))
     for (const auto& corner : contour.corners) points.push_back(corner.point);
-  return deviation_of(points, polygons, step * section.outer_radius());
+  return deviation_of(points, polygons, step);
 }
 
 /// Volume of the body {psi < 0} [m^3] by contours with short chords.
@@ -64,7 +66,7 @@ Expected<ProfileReport, std::vector<OutlineFault>> check_profile(const Outline& 
   Faults faults;
   check_closed(profile, share_of_ends * section.outer_radius(), place_in_section, faults);
   check_crossings(polygons, place_in_section, faults);
-  Deviation deviation = of_contours(section, polygons);
+  Deviation deviation = of_contours(section, polygons, tolerance);
   for (const Loop& loop : profile.loops)
     for (const Curve& curve : loop.curves) {
       if (is_on_side(curve, section)) continue;
