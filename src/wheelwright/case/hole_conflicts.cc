@@ -152,8 +152,12 @@ void check_grooves(const Case& c, Conflicts& found) {
       found.push_back({{inner, outer}, "the groove has no width", "set outer_radius > inner_radius"});
       continue;
     }
-    check_hole_inside(c, 0.5 * (groove.inner_radius + groove.outer_radius),
-                      0.5 * (groove.outer_radius - groove.inner_radius), {inner, outer}, found);
+    const auto [low, high] = room_for_holes(c);
+    const double rounding = 1e-9 * c.wheel.outer_radius;
+    if (low < high && (groove.inner_radius < low - rounding || groove.outer_radius > high + rounding))
+      found.push_back({with_ring_shape({inner, outer}), "the groove reaches into the bands at rim and tread",
+                       fmt::format("use radii from {:.6g} m to {:.6g} m", low, high) +
+                           if_in_millimetres(groove.outer_radius, high)});
     const double most = groove.side == GrooveSide::both ? 0.5 * c.wheel.width : c.wheel.width;
     if (groove.depth >= most)
       found.push_back({{depth, key_of(&Wheel::width)},

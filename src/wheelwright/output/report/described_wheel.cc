@@ -448,7 +448,9 @@ std::vector<WheelNumber<dim>> numbers_of_deformation() {
       {"largest travel by the ring's thickness", UnitKind::ratio, "travel_by_ring_thickness",
        [](const Wheel& w) { return under_load(w, [](const Loaded& l) { return l.deformation.travel; }); }},
       {"error of linear theory, estimated", UnitKind::ratio, "linear_theory_error", [](const Wheel& w) {
-         return under_load(w, [](const Loaded& l) { return l.deformation.error.size(); });
+         return under_load(w, [](const Loaded& l) -> Number {
+           return l.deformation.of_linear_theory ? Number(l.deformation.error.size()) : std::nullopt;
+         });
        }}};
 }
 
