@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/support.h"
+#include "wheelwright/case/read.h"
 #include "wheelwright/quantities/functionals/strain_energy.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/evolution/evolver.h"
@@ -142,6 +143,18 @@ TEST(Invariance, EveryStageKeepsIt) {
       EXPECT_EQ(spread(psi, invariance), 0);
       EXPECT_NEAR(material_measure(psi) / before, 1, 1e-5);
     }
+}
+
+TEST(Invariance, ATurnedWheelIsSolvedAtOnePositionUnlessItsHistoryMatters) {
+  const std::string turned =
+      "[wheel]\ndimension = 3\n[optimizer]\nmade = \"turned\"\n[[holes.groove]]\ninner_radius = 0.23\n"
+      "outer_radius = 0.31\ndepth = 0.03\n[material]\n";
+  const CaseResult plain = parse_case(turned, "case.toml"),
+                   lossy = parse_case(turned + "loss_factor = 0.1\n", "case.toml");
+  ASSERT_TRUE(plain.value && lossy.value);
+  EXPECT_EQ(plain.value->load.positions, 1);
+  EXPECT_EQ(lossy.value->load.positions, Load().positions);
+  EXPECT_EQ(plain.value->grid.angular_cells, 3 * plain.value->wheel.sectors);
 }
 
 RollingModel<3> model_on(const PolarGrid<3>& grid) {

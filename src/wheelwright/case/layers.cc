@@ -160,6 +160,12 @@ bool has_large_strains(const Case& c) {
   });
 }
 
+bool needs_history(const Case& c) {
+  return std::ranges::any_of(placed_materials(c), [](const PlacedMaterial& placed) {
+    return placed.loss_factor().has_value() || placed.fatigue_limit().has_value();
+  });
+}
+
 Case with_small_strains(Case c) {
   c.material.model = MaterialModel::small_strain;
   for (MaterialLayer& layer : c.layers) layer.model = MaterialModel::small_strain;

@@ -48,6 +48,9 @@ bool has_large_strains(const Case& c);
 /// The same case with linear elasticity everywhere.
 Case with_small_strains(Case c);
 
+/// Whether losses or fatigue are computed, which need the history of strains over a turn.
+bool needs_history(const Case& c);
+
 /// The default of contact.gamma_0 at large deformation: with theta = 0 it must be larger than in the
 /// symmetric form.
 inline constexpr double gamma_0_of_large_strains = 20;

@@ -200,7 +200,8 @@ std::vector<Key<Optimizer>> search_keys() {
        .field = choice<&Optimizer::made>({"free", "extruded", "turned"}),
        .meaning =
            "in 3D, what every shape of a run is. extruded: the same all along the axle; turned: a body of "
-           "revolution, by default in sectors of a few cells and with one load position"},
+           "revolution, by default in sectors of a few cells and, without losses and fatigue, with one load "
+           "position"},
       {.name = "velocity_length",
        .unit = "cells",
        .field =

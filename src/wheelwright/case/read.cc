@@ -735,7 +735,7 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
   }
   if (result.optimizer.made == Manufacture::turned) {
     if (!is_given(key_of(&Wheel::sectors))) result.wheel.sectors = sectors_of_turned_wheel(result);
-    if (!is_given(key_of(&Load::positions))) result.load.positions = 1;
+    if (!is_given(key_of(&Load::positions)) && !needs_history(result)) result.load.positions = 1;
   }
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
