@@ -56,7 +56,10 @@ Checkpoint<dim> some_checkpoint() {
       .mean_observations = mean,
       .phases = {{"cut", 0.25}, {"contact", 1e-3}},
       .measures = {{"run_out", std::numeric_limits<double>::denorm_min()},
-                   {"pressure_spread", std::numeric_limits<double>::quiet_NaN()}}};
+                   {"pressure_spread", std::numeric_limits<double>::quiet_NaN()}},
+      .starts = {
+          {{2, 0.5, random.number()}, {dim, {random.number(), std::numeric_limits<double>::quiet_NaN()}}},
+          {{5}, {dim, random.numbers(4)}}}};
   const int n_nodes = Lattice<dim>(small_grid<dim>(), 2).n_nodes();
   OptimizationState<dim> state{
       some_level_set<dim>(random, 2),

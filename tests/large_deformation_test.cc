@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "tests/support.h"
 #include "wheelwright/mechanics/equilibrium/large_deformation_problem.h"
@@ -141,11 +143,87 @@ TEST(LargeDeformation, LoadAndTravelLeadToTheSameSolution) {
   ASSERT_TRUE(loaded) << loaded.failure().detail;
   model.travel = loaded->equilibria[0].state.rim.towards_ground;
   const auto by_travel = LargeDeformationProblem<2>::create(model);
-  for (const auto& starts : {DeformedStarts{}, starts_from(*loaded)}) {
+  for (const auto& starts : {StartDisplacements{}, starts_from(*loaded)}) {
     const auto moved = by_travel->solve({psi, nullptr}, by_travel->all_positions(), starts);
     ASSERT_TRUE(moved);
     EXPECT_NEAR(moved->equilibria[0].state.rim_force.towards_ground / model.load, 1, 1e-8);
     EXPECT_NEAR(moved->equilibria[0].strain_energy / loaded->equilibria[0].strain_energy, 1, 1e-8);
+  }
+}
+
+/// From the displacements of a similar shape, with material where that has holes: the same solution with
+/// fewer tangents.
+TEST(LargeDeformation, FindsTheSameSolutionFromThatOfASimilarShape) {
+  const auto model = soft_wheel(8e6);
+  const double angle = model.grid.sector_angle();
+  const auto before = lopsided_holes(model.grid);
+  const auto psi = holes(model.grid, 2, {{0.2507, 0.05 * angle, 0.0205}, {0.2735, 0.53 * angle, 0.0262}});
+  const auto problem = LargeDeformationProblem<2>::create(model);
+  const auto known = problem->solve({before, nullptr}, problem->all_positions());
+  ASSERT_TRUE(known) << known.failure().detail;
+  const auto near = problem->solve({psi, nullptr}, problem->all_positions(), starts_from(*known));
+  const auto from_rest = problem->solve({psi, nullptr}, problem->all_positions());
+  ASSERT_TRUE(near) << near.failure().detail;
+  ASSERT_TRUE(from_rest) << from_rest.failure().detail;
+  for (size_t i = 0; i < near->equilibria.size(); ++i) {
+    const auto &a = near->equilibria[i], &b = from_rest->equilibria[i];
+    EXPECT_NEAR(a.strain_energy / b.strain_energy, 1, 1e-8);
+    EXPECT_NEAR(a.state.rim.towards_ground / b.state.rim.towards_ground, 1, 1e-8);
+    EXPECT_LE(2 * a.n_tangents, b.n_tangents);
+  }
+
+  // A start belongs to its position, whatever its place among them, and one of another grid is left unused.
+  auto others = starts_from(*known);
+  std::swap(others[0], others[1]);
+  const auto again = problem->solve({psi, nullptr}, problem->all_positions(), others);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->equilibria[0].strain_energy, near->equilibria[0].strain_energy);
+  for (auto& start : others) start.displacement.values.resize(2);
+  const auto without = problem->solve({psi, nullptr}, problem->all_positions(), others);
+  ASSERT_TRUE(without);
+  EXPECT_EQ(without->equilibria[0].strain_energy, from_rest->equilibria[0].strain_energy);
+}
+
+/// The points of the contact are where the loaded tread is: those that touch lie on the ground, up to the
+/// penetration of Nitsche's method, and their areas are the length of the loaded tread.
+TEST(LargeDeformation, ContactPointsAreThoseOfTheLoadedWheel) {
+  auto model = soft_wheel(8e6);
+  model.travel = 0.012;
+  const auto problem = LargeDeformationProblem<2>::create(model);
+  const auto solved = testing::all_states(*problem, lopsided_holes(model.grid));
+  ASSERT_TRUE(solved) << solved.failure().detail;
+  const Lattice<2> lattice(model.grid, model.degree);
+  for (int position = 0; position < (*solved)->positions().size(); ++position) {
+    const auto& patch = (*solved)->contacts()[position];
+    std::map<int, double> lengths;
+    double moved = 0, of_edges = 0;
+    for (const auto& point : patch.points) {
+      lengths[point.column] += point.area();
+      moved = std::max(moved, std::abs(point.moved[1]));
+      of_edges = std::max(of_edges, std::abs(point.stretch - 1));
+      EXPECT_NEAR(point.area() * point.pressure(), -point.weight * point.traction[0], 1e-9 * model.load);
+      if (point.augmented[0] >= -1e4) continue;
+      EXPECT_NEAR(point.place()[0] + patch.rim.towards_ground, model.grid.outer_radius, 2e-4);
+    }
+    EXPECT_GT(moved, 1e-3);
+    EXPECT_GT(of_edges, 0.01);
+
+    const RingField field = (*solved)->displacement().at_nodes(position);
+    const auto at = [&](int line) {
+      const std::size_t node = ring_node<2>(lattice, {lattice.nodes()[0] - 1, line});
+      const Vec<2> u{field.values[2 * node], field.values[2 * node + 1]};
+      return rotated<2>({model.grid.outer_radius}, line * lattice.node_angle()) + u;
+    };
+    for (const auto& [column, length] : lengths) {
+      const Vec<2> a = at(2 * column), b = at(2 * column + 1), c = at(2 * column + 2);
+      double of_nodes = 0;  // of the parabola through them
+      constexpr int parts = 1000;
+      for (int k = 0; k < parts; ++k) {
+        const double t = 2 * (k + 0.5) / parts - 1;
+        of_nodes += norm((t - 0.5) * a - 2 * t * b + (t + 0.5) * c) * 2 / parts;
+      }
+      EXPECT_NEAR(length / of_nodes, 1, 1e-6);
+    }
   }
 }
 

@@ -88,6 +88,17 @@ Matrix ContactObserver<dim>::tangent(const std::vector<double>& v, int ring_colu
 }
 
 template <int dim>
+std::vector<double> ContactObserver<dim>::stretches(const std::vector<double>& v, int ring_column) const {
+  const auto u = element().cartesian(gathered(v, ring_column).data());
+  std::vector<double> result;
+  for (const auto& [point, normal] : points_) {
+    const Mat<dim> f = element().deformation(point, u);
+    result.push_back(determinant<dim>(f) * norm(transpose_times<dim>(inverse<dim>(f), normal)));
+  }
+  return result;
+}
+
+template <int dim>
 std::vector<int> tread_nodes(const RingSpace<dim>& space, const ContactZone& zone) {
   const int degree = space.degree(), rows = space.grid().cells[0];
   const int first = degree * zone.first_column, last = degree * (zone.first_column + zone.n_columns);

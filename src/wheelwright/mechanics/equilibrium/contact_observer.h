@@ -26,6 +26,9 @@ class ContactObserver {
   /// Their derivatives with respect to those dofs, one row per observation.
   Matrix tangent(const std::vector<double>& v, int ring_column) const;
 
+  /// The deformed by the undeformed area of the tread at the contact points: J |F^-T n|.
+  std::vector<double> stretches(const std::vector<double>& v, int ring_column) const;
+
  private:
   struct FacePoint {
     typename HyperelasticElement<dim>::Point point;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/mechanics/contact/contact_results.h"
@@ -90,6 +91,27 @@ class DeformedDisplacement : public Displacement<dim> {
   const LargeDeformation<dim>& solution_;
 };
 
+/// The contact with places and areas of the loaded wheel.
+template <int dim>
+ContactPatch<dim> deformed_patch(const LargeDeformation<dim>& solution,
+                                 const RingEquilibrium<dim>& equilibrium) {
+  const ContactObserver<dim>& observer = solution.ring->contact;
+  ContactPatch<dim> patch = contact_patch(equilibrium.contact, equilibrium.state);
+  int column = -1;
+  std::vector<double> values, stretches;
+  for (auto& point : patch.points) {
+    if (std::exchange(column, point.column) != point.column) {
+      values = observer.values(equilibrium.v, column);
+      stretches = observer.stretches(equilibrium.v, column);
+    }
+    Vec<dim> u;
+    std::copy_n(&values[observer.rows().displacement(point.point)], dim, u.begin());
+    point.stretch = stretches[point.point];
+    point.moved = point.frame.template to_ground<dim>(u);
+  }
+  return patch;
+}
+
 template <int dim>
 class DeformedState : public State<dim> {
  public:
@@ -104,7 +126,7 @@ class DeformedState : public State<dim> {
     for (int i = 0; i < solution_.positions.size(); ++i) {
       const auto& equilibrium = solution_.equilibria[i];
       energies_.push_back(equilibrium.strain_energy);
-      contacts_.push_back(contact_patch(equilibrium.contact, equilibrium.state));
+      contacts_.push_back(deformed_patch(solution_, equilibrium));
       for (int c = 0; c < n_columns; ++c) {
         const auto values = solution_.ring->tread.values(equilibrium.v, c);
         std::copy(values.begin(), values.end(), observations_.column(i * n_columns + c));
@@ -123,6 +145,8 @@ class DeformedState : public State<dim> {
   const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
   const std::vector<SurfacePoint<dim>>& edges() const override { return no_edges_; }
   const Displacement<dim>& displacement() const override { return displacement_; }
+
+  StartDisplacements start_displacements() const override { return starts_from(solution_); }
 
   const StrainPeaks<dim>& strain_peaks() const override {
     std::call_once(has_peaks_, [this] { peaks_ = wheelwright::strain_peaks(problem_, *this); });
@@ -157,7 +181,7 @@ class DeformedState : public State<dim> {
       last = &*solved;
       result.emplace_back();
       for (const auto& equilibrium : solved->equilibria)
-        result.back().push_back(contact_patch(equilibrium.contact, equilibrium.state));
+        result.back().push_back(deformed_patch(*solved, equilibrium));
     }
     return result;
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/shared_interrupt.h"
@@ -35,51 +36,81 @@ std::optional<Failure> unsupported_model(const RollingModel<dim>& model) {
   return unsupported_loads(model);
 }
 
-/// The start of a position in the numbers of a ring: at nodes that had no material the mean of their
-/// neighbours with values, layer by layer.
+/// Continues a displacement to the nodes of a ring that had no material: layer by layer, each node by the
+/// mean of the straight lines through its neighbours with values and the nodes behind them, or of its
+/// neighbours where there are no such lines.
 template <int dim>
-std::vector<double> on_ring(const RingSpace<dim>& space, RingField field) {
-  const Lattice<dim>& lattice = space.lattice();
-  const int lines = lattice.nodes()[1] * space.grid().n_sectors;
-  const auto index = [&](std::array<int, dim> p) { return dim * ring_node<dim>(lattice, p); };
-  std::vector<int> missing;
-  for (int node = 0; node < space.n_nodes(); ++node) missing.push_back(node);
-  const auto position = [&](int node) {
-    auto p = space.position_in_sector(node);
-    p[1] += node / space.n_nodes_of_sector() * lattice.nodes()[1];
-    return p;
-  };
-  std::erase_if(missing, [&](int node) { return !std::isnan(field.values[index(position(node))]); });
-  while (!missing.empty()) {
-    std::vector<std::pair<int, Vec<dim>>> found;
-    for (const int node : missing) {
-      Vec<dim> sum{};
-      int n = 0;
-      for (int axis = 0; axis < dim; ++axis)
-        for (const int step : {-1, 1}) {
-          auto p = position(node);
-          p[axis] += step;
-          if (axis == 1) p[1] = (p[1] + lines) % lines;
-          if (axis != 1 && (p[axis] < 0 || p[axis] >= lattice.nodes()[axis])) continue;
-          const double* value = &field.values[index(p)];
-          if (std::isnan(value[0])) continue;
-          for (int c = 0; c < dim; ++c) sum[c] += value[c];
-          ++n;
-        }
-      if (n > 0) found.push_back({node, sum / n});
+class Continuation {
+ public:
+  Continuation(const RingSpace<dim>& space, RingField field)
+      : space_(space), lattice_(space.lattice()), field_(std::move(field)) {}
+
+  /// On the dofs of the ring; 0 where no node with a value can be reached.
+  std::vector<double> continued() && {
+    std::vector<int> missing(space_.n_nodes());
+    std::iota(missing.begin(), missing.end(), 0);
+    std::erase_if(missing, [&](int node) { return is_known(place(node)); });
+    while (!missing.empty()) {
+      std::vector<std::pair<int, Vec<dim>>> found;
+      for (const int node : missing)
+        if (const auto u = from_neighbours(place(node))) found.push_back({node, *u});
+      if (found.empty()) break;
+      for (const auto& [node, u] : found) std::ranges::copy(u, &field_.values[index(place(node))]);
+      std::erase_if(missing, [&](int node) { return is_known(place(node)); });
     }
-    if (found.empty()) break;
-    for (const auto& [node, value] : found)
-      std::copy(value.begin(), value.end(), &field.values[index(position(node))]);
-    std::erase_if(missing, [&](int node) { return !std::isnan(field.values[index(position(node))]); });
+    std::vector<double> v(space_.n_dofs(), 0.0);
+    for (int node = 0; node < space_.n_nodes(); ++node)
+      if (is_known(place(node)))
+        std::copy_n(&field_.values[index(place(node))], dim, &v[space_.dof(node, 0)]);
+    return v;
   }
-  std::vector<double> v(space.n_dofs(), 0.0);
-  for (int node = 0; node < space.n_nodes(); ++node)
-    for (int c = 0; c < dim; ++c)
-      if (const double value = field.values[index(position(node)) + c]; std::isfinite(value))
-        v[space.dof(node, c)] = value;
-  return v;
-}
+
+ private:
+  using Place = std::array<int, dim>;
+
+  Place place(int node) const {
+    Place p = space_.position_in_sector(node);
+    p[1] += node / space_.n_nodes_of_sector() * lattice_.nodes()[1];
+    return p;
+  }
+  std::size_t index(const Place& p) const { return dim * ring_node<dim>(lattice_, p); }
+  bool is_known(const Place& p) const { return !std::isnan(field_.values[index(p)]); }
+
+  std::optional<Vec<dim>> value(const Place& p) const {
+    for (int axis = 0; axis < dim; ++axis)
+      if (axis != 1 && (p[axis] < 0 || p[axis] >= lattice_.nodes()[axis])) return {};
+    if (!is_known(p)) return {};
+    Vec<dim> u;
+    std::copy_n(&field_.values[index(p)], dim, u.begin());
+    return u;
+  }
+
+  std::optional<Vec<dim>> from_neighbours(const Place& p) const {
+    Vec<dim> of_lines{}, of_neighbours{};
+    int n_lines = 0, n_neighbours = 0;
+    for (int axis = 0; axis < dim; ++axis)
+      for (const int step : {-1, 1}) {
+        Place next = p, behind = p;
+        next[axis] += step;
+        behind[axis] += 2 * step;
+        const auto u = value(next);
+        if (!u) continue;
+        of_neighbours = of_neighbours + *u;
+        ++n_neighbours;
+        if (const auto w = value(behind)) {
+          of_lines = of_lines + 2.0 * *u - *w;
+          ++n_lines;
+        }
+      }
+    if (n_lines > 0) return of_lines / n_lines;
+    if (n_neighbours > 0) return of_neighbours / n_neighbours;
+    return {};
+  }
+
+  const RingSpace<dim>& space_;
+  const Lattice<dim>& lattice_;
+  RingField field_;
+};
 
 }  // namespace
 
@@ -133,7 +164,7 @@ auto LargeDeformationProblem<dim>::roll(const RollingModel<dim>& model,
 
 template <int dim>
 Expected<LargeDeformation<dim>, EquilibriumFailure> LargeDeformationProblem<dim>::solve(
-    const CutShape<dim>& shape, LoadPositions positions, const DeformedStarts& starts,
+    const CutShape<dim>& shape, LoadPositions positions, const StartDisplacements& starts,
     const Interrupt& interrupt) const {
   Stopwatch watch;
   auto domain = shape.domain ? Expected<CutDomain<dim>>(*shape.domain)
@@ -145,9 +176,12 @@ Expected<LargeDeformation<dim>, EquilibriumFailure> LargeDeformationProblem<dim>
   std::vector<PhaseTime> phases{{phase::cut, watch.lap()}};
   const auto ring = std::make_shared<const DeformableRing<dim>>(*std::move(domain), *table_, model_);
   phases.push_back({phase::assembly, watch.lap()});
-  const auto start = [&](int i) -> std::optional<EquilibriumStart<dim>> {
-    if (i >= static_cast<int>(starts.displacements.size())) return {};
-    return EquilibriumStart<dim>{on_ring(ring->forms.space(), starts.displacements[i])};
+  const Lattice<dim>& lattice = ring->forms.space().lattice();
+  const std::size_t n_values = dim * std::size_t(lattice.n_nodes()) * lattice.grid().n_sectors;
+  const auto start = [&, grounds = positions.grounds](int i) -> std::optional<EquilibriumStart<dim>> {
+    const StartDisplacement* known = start_of(starts, grounds[i]);
+    if (!known || known->displacement.values.size() != n_values) return {};  // of another grid
+    return EquilibriumStart<dim>{Continuation<dim>(ring->forms.space(), known->displacement).continued()};
   };
   auto result = roll(model_, ring, std::move(positions), start, interrupt);
   if (result) result->phases.insert(result->phases.begin(), phases.begin(), phases.end());
@@ -171,8 +205,8 @@ Expected<RingEquilibrium<dim>, EquilibriumFailure> LargeDeformationProblem<dim>:
 }
 
 template <int dim>
-Expected<std::shared_ptr<const State<dim>>> LargeDeformationProblem<dim>::states(
-    const CutShape<dim>& shape, LoadPositions positions, const DeformedStarts& starts,
+Expected<std::shared_ptr<const State<dim>>> LargeDeformationProblem<dim>::states_near(
+    const StartDisplacements& starts, const CutShape<dim>& shape, LoadPositions positions,
     const Interrupt& interrupt) const {
   auto solution = solve(shape, std::move(positions), starts, interrupt);
   if (!solution) return Failure(solution.failure());
@@ -180,10 +214,10 @@ Expected<std::shared_ptr<const State<dim>>> LargeDeformationProblem<dim>::states
 }
 
 template <int dim>
-DeformedStarts starts_from(const LargeDeformation<dim>& solution) {
+StartDisplacements starts_from(const LargeDeformation<dim>& solution) {
   const RingSpace<dim>& space = solution.ring->forms.space();
   const Lattice<dim>& lattice = space.lattice();
-  DeformedStarts starts;
+  StartDisplacements starts;
   for (const auto& equilibrium : solution.equilibria) {
     RingField field{dim, std::vector<double>(dim * size_t(lattice.n_nodes()) * space.grid().n_sectors,
                                              std::numeric_limits<double>::quiet_NaN())};
@@ -197,7 +231,7 @@ DeformedStarts starts_from(const LargeDeformation<dim>& solution) {
         else if (const int node = space.number(p); node >= 0)
           std::copy_n(&equilibrium.v[space.dof(node, 0)], dim, value);
       }
-    starts.displacements.push_back(std::move(field));
+    starts.push_back({equilibrium.ground, std::move(field)});
   }
   return starts;
 }

@@ -36,12 +36,6 @@ struct LargeDeformation {
   std::vector<PhaseTime> phases;
 };
 
-/// Displacements to start from, of another shape or load: of every position the polar components at all
-/// nodes of the lattice of the ring, as RingField with its layout; without the rim's motion.
-struct DeformedStarts {
-  std::vector<RingField> displacements;
-};
-
 /// The rolling problem at large deformation: the StateSolver of wheels with laws of HyperelasticLaw, and of
 /// isotropic linear elasticity in other layers. Strains are those of Green and Lagrange in layers of the
 /// former and small strains in layers of the latter; tractions are Piola's, on the undeformed tread.
@@ -57,21 +51,20 @@ class LargeDeformationProblem : public StateSolver<dim> {
   const TreadSurface<dim>& tread_surface() const override { return small_strains_->tread_surface(); }
   Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape, LoadPositions positions,
                                                      const Interrupt& interrupt) const override {
-    return states(shape, std::move(positions), {}, interrupt);
+    return states_near({}, shape, std::move(positions), interrupt);
   }
+  /// A position without a start, and one that is not reached from its start, is loaded in steps.
+  Expected<std::shared_ptr<const State<dim>>> states_near(const StartDisplacements& starts,
+                                                          const CutShape<dim>& shape, LoadPositions positions,
+                                                          const Interrupt& interrupt) const override;
   Expected<typename StateSolver<dim>::TractionMap> neumann_to_dirichlet(DualNorm norm) const override {
     return small_strains_->neumann_to_dirichlet(norm);
   }
 
-  /// The same from given displacements of every position; from none, loads are applied in steps.
-  Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape, LoadPositions positions,
-                                                     const DeformedStarts& starts,
-                                                     const Interrupt& interrupt) const;
-
   /// The solution itself; its failures with their instabilities.
   Expected<LargeDeformation<dim>, EquilibriumFailure> solve(const CutShape<dim>& shape,
                                                             LoadPositions positions,
-                                                            const DeformedStarts& starts = {},
+                                                            const StartDisplacements& starts = {},
                                                             const Interrupt& interrupt = {}) const;
 
   /// The same shape and positions under other loads, from a solution.
@@ -98,8 +91,8 @@ class LargeDeformationProblem : public StateSolver<dim> {
   std::unique_ptr<RollingProblem<dim>> small_strains_;  ///< the limit for small strains, with the same tread
 };
 
-/// The displacements of a state of a LargeDeformationProblem, for the next shape.
+/// The displacements of a solution, from which that of a similar shape is sought.
 template <int dim>
-DeformedStarts starts_from(const LargeDeformation<dim>& solution);
+StartDisplacements starts_from(const LargeDeformation<dim>& solution);
 
 }  // namespace wheelwright

@@ -20,10 +20,22 @@ struct ContactPatch {
     double weight;       ///< dS [m, or m^2 when dim = 3]
     Vec<dim> augmented;  ///< z = tau sigma(u)n - gamma (u - g n) [Pa], frame of the contact: component 0
                          ///< along n, which is n_y on flat ground; in contact where z_0 < 0
-    Vec<dim> traction;   ///< Phi(z) of (18), (23): the ground's traction on the wheel, in that frame [Pa]
+    /// Phi(z) of (18), (23): the ground's traction on the wheel by undeformed area, in that frame [Pa].
+    Vec<dim> traction;
+    /// Loaded by unloaded area of the tread there; 1 with small strains, which do not tell them apart.
+    double stretch = 1;
+    /// From `position` to where it is on the loaded wheel, relative to the axle; ground frame, 0 with small
+    /// strains [m].
+    Vec<dim> moved = {};
 
     /// The traction in the ground frame: component 0 along n_y, towards the ground.
     Vec<dim> ground_traction() const { return frame.template contact_to_ground<dim>(traction); }
+
+    // Of the loaded wheel:
+    Vec<dim> place() const { return position + moved; }     ///< relative to the axle, as position
+    double area() const { return weight * stretch; }        ///< as weight
+    Vec<dim> stress() const { return traction / stretch; }  ///< as traction
+    double pressure() const { return -stress()[0]; }        ///< [Pa]
   };
 
   std::vector<Point> points;  ///< ascending along the ground, column by column

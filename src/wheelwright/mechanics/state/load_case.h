@@ -71,12 +71,14 @@ Expected<StatesOfCases<dim>> states_of_other_cases(const State<dim>& first, cons
   return states;
 }
 
-/// The states of a shape under all load cases, with one factorization. Fails as StateSolver::states() does.
+/// The states of a shape under all load cases, with one factorization. `starts`: of a similar shape under the
+/// first load case. Fails as StateSolver::states() does.
 template <int dim>
 Expected<StatesOfCases<dim>> states_of_cases(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
                                              const CutShape<dim>& shape, LoadPositions positions,
-                                             const Interrupt& interrupt) {
-  auto first = solver.states(shape, std::move(positions), interrupt);
+                                             const Interrupt& interrupt,
+                                             const StartDisplacements& starts = {}) {
+  auto first = solver.states_near(starts, shape, std::move(positions), interrupt);
   if (!first) return first.failure();
   auto states = states_of_other_cases(**first, cases, interrupt);
   if (states) states->insert(states->begin(), *std::move(first));

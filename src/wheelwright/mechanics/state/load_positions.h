@@ -20,6 +20,8 @@ struct GroundPosition {
   double azimuth(const PolarGrid<dim>& grid) const {
     return (column + offset) * grid.column_angle();
   }
+
+  bool operator==(const GroundPosition&) const = default;
 };
 
 /// The load positions that are solved.

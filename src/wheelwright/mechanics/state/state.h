@@ -13,6 +13,7 @@
 #include "wheelwright/mechanics/state/load_positions.h"
 #include "wheelwright/mechanics/state/ring_field.h"
 #include "wheelwright/mechanics/state/rolling_model.h"
+#include "wheelwright/mechanics/state/start_displacements.h"
 #include "wheelwright/mechanics/state/topological_derivative.h"
 #include "wheelwright/mechanics/state/tread_surface.h"
 #include "wheelwright/shape/cut/cut_shape.h"
@@ -113,6 +114,10 @@ class State : public std::enable_shared_from_this<State<dim>> {
   /// lengths. None when dim = 2.
   virtual const std::vector<SurfacePoint<dim>>& edges() const = 0;
 
+  /// The displacements from which the states of a similar shape may be sought (StateSolver::states_near());
+  /// none where that saves nothing.
+  virtual StartDisplacements start_displacements() const { return {}; }
+
   /// The densities at boundary() of the shape derivatives (42) of several functions, each summed over its
   /// positions (as often as they count) and over the sectors: M(u) + sigma(u):eps(p) - f.p, and p_0 div p
   /// under a pressure p_0; and those at edges(), -p_0 (p.e) / sqrt(1 - (n.e)^2) with the outward normal e of
@@ -160,6 +165,15 @@ class StateSolver : public std::enable_shared_from_this<StateSolver<dim>> {
   virtual Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape,
                                                              LoadPositions positions,
                                                              const Interrupt& interrupt) const = 0;
+
+  /// The same, sought from the displacements of a similar shape (State::start_displacements()), which a
+  /// solver may leave unused. They change the states by less than the tolerance of the solver.
+  virtual Expected<std::shared_ptr<const State<dim>>> states_near(const StartDisplacements&,
+                                                                  const CutShape<dim>& shape,
+                                                                  LoadPositions positions,
+                                                                  const Interrupt& interrupt) const {
+    return states(shape, std::move(positions), interrupt);
+  }
 
   /// The operator g -> w[g] of (68), or of Poisson's problem in its place, on the full ring, which no shape
   /// changes: tractions on the tread to the displacement there. dim rows per contact point (Cartesian, column

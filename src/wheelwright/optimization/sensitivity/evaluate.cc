@@ -224,7 +224,8 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const Lo
                              .mean_observations = of_cases.front().mean_observations,
                              .phases = {},
                              .measures = measures<dim>(cases, of_cases),
-                             .edges = first.edges()};
+                             .edges = first.edges(),
+                             .starts = first.start_displacements()};
   for (const State<dim>* state : states) {
     evaluation.phases.insert(evaluation.phases.end(), state->phases().begin(), state->phases().end());
     for (const auto& contact : state->contacts())
@@ -269,13 +270,13 @@ template <int dim>
 Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
                                   std::span<const ShapeFunction<dim>> functions, const CutShape<dim>& shape,
                                   const Matrix* held_mean, const Interrupt& interrupt,
-                                  const LoadCases<dim>& cases) {
+                                  const LoadCases<dim>& cases, const StartDisplacements& starts) {
   const bool compares_images_alike = are_mirror_symmetric(functions, MirrorPlane::azimuth) &&
                                      (!held_mean || is_mirror_symmetric(solver.tread_surface(), *held_mean));
   LoadPositions positions =
       compares_images_alike ? distinct_positions(solver, cases, shape.psi) : solver.all_positions();
   positions.on_whole_width = !are_mirror_symmetric(functions, MirrorPlane::width);
-  auto states = states_of_cases(solver, cases, shape, std::move(positions), interrupt);
+  auto states = states_of_cases(solver, cases, shape, std::move(positions), interrupt, starts);
   if (!states) return states.failure();
   std::vector<const State<dim>*> of_cases;
   for (const auto& state : *states) of_cases.push_back(state.get());
@@ -328,7 +329,7 @@ Expected<std::vector<std::vector<double>>> topological_derivatives(
       const LevelSet<dim>&, std::span<const State<dim>* const>, const Matrix*);                             \
   template Expected<Evaluated<dim>> evaluate(const StateSolver<dim>&, std::span<const ShapeFunction<dim>>,  \
                                              const CutShape<dim>&, const Matrix*, const Interrupt&,         \
-                                             const LoadCases<dim>&);
+                                             const LoadCases<dim>&, const StartDisplacements&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

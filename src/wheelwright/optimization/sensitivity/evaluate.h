@@ -53,11 +53,11 @@ Expected<std::vector<std::vector<double>>> topological_derivatives(
 /// The same for a shape: the states of its distinct positions, then differentiate(). All positions are solved
 /// for when the functions or the held mean are not their own mirror image, and the whole width when the
 /// functions are not in the middle plane of the width. `interrupt` is polled by the solver, and before the
-/// adjoint problems.
+/// adjoint problems. `starts`: of a similar shape (Evaluation::starts).
 template <int dim>
 Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
                                   std::span<const ShapeFunction<dim>> functions, const CutShape<dim>& shape,
                                   const Matrix* held_mean = nullptr, const Interrupt& interrupt = {},
-                                  const LoadCases<dim>& cases = {});
+                                  const LoadCases<dim>& cases = {}, const StartDisplacements& starts = {});
 
 }  // namespace wheelwright

@@ -7,6 +7,7 @@
 #include "wheelwright/base/phase_time.h"
 #include "wheelwright/base/units.h"
 #include "wheelwright/linalg/dense.h"
+#include "wheelwright/mechanics/state/start_displacements.h"
 #include "wheelwright/quantities/functionals/bounds.h"
 #include "wheelwright/shape/geometry/level_set.h"
 
@@ -55,6 +56,8 @@ struct Evaluation {
   /// In 3D, DJ(Theta) also includes the sum of weight edge_gradient Theta.n over these points on the edges of
   /// the boundary in side faces.
   std::vector<SurfacePoint<dim>> edges = {};
+  /// From which the states of the next shape are sought, under the first load case.
+  StartDisplacements starts = {};
 
   /// The function of that name, which must exist.
   const FunctionValue& function(std::string_view name) const;

@@ -9,7 +9,7 @@ namespace wheelwright {
 /// point along the ground towards larger azimuth of the body frame.
 struct ContactPoint {
   int position;               ///< load position
-  double azimuth;             ///< from the contact point [rad]
+  double azimuth;             ///< of the unloaded tread, from the contact point [rad]
   double x;                   ///< along the ground, from the point below the axle [m]
   double weight;              ///< length of tread represented by the point [m], in 3D its area [m^2]
   double pressure;            ///< contact pressure of the law, >= 0 [Pa]

@@ -338,16 +338,16 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
     const double approach = in_contact_frame(rows.displacement(point.point))[0] + of_rim[0];
     result.push_back({.position = position,
                       .azimuth = std::atan2(point.position[1], point.position[0]),
-                      .x = point.position[1],
-                      .weight = point.weight,
-                      .pressure = -point.traction[0],
-                      .friction = point.traction[1],
-                      .normal_stress = in_contact_frame(rows.traction(point.point))[0],
+                      .x = point.place()[1],
+                      .weight = point.area(),
+                      .pressure = point.pressure(),
+                      .friction = point.stress()[1],
+                      .normal_stress = in_contact_frame(rows.traction(point.point))[0] / point.stretch,
                       .gap = point.gap - approach,
                       .cell = per_column * point.column + cells[point.point]});
     if constexpr (dim == 3) {
-      result.back().z = point.position[2];
-      result.back().axial_friction = point.traction[2];
+      result.back().z = point.place()[2];
+      result.back().axial_friction = point.stress()[2];
     }
   }
   return result;

@@ -59,9 +59,10 @@ TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<di
 template <int dim>
 void set_traction(const typename ContactPatch<dim>::Point& contact, double ground,
                   TreadContactPoint<dim>& point) {
-  point.traction = GroundFrame{-ground, contact.frame.camber}.to_body<dim>(contact.ground_traction());
-  point.pressure = -contact.traction[0];
-  point.friction = contact.traction[1];
+  point.traction =
+      GroundFrame{-ground, contact.frame.camber}.to_body<dim>(contact.ground_traction()) / contact.stretch;
+  point.pressure = contact.pressure();
+  point.friction = contact.stress()[1];
 }
 
 /// Under a position that was solved for: all points of the columns in the contact zone, and the middle one of

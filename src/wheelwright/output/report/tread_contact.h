@@ -12,11 +12,11 @@ template <int dim>
 struct TreadContactPoint {
   Vec<dim> position;      ///< before the deformation, relative to the axle [m]
   Vec<dim> displacement;  ///< the rim's motion included [m]
-  Vec<dim> traction;      ///< of the ground on the tread, by the law of the contact [Pa]
+  Vec<dim> traction;      ///< of the ground on the loaded tread, by the law of the contact [Pa]
   double pressure;        ///< its part towards the axle, >= 0 [Pa]
   double friction;        ///< its part along the ground, positive towards larger azimuth [Pa]
   double gap;             ///< distance to the ground in the deformed state, negative: penetration [m]
-  double weight;          ///< length of tread represented by the point [m]; in 3D its area [m^2]
+  double weight;          ///< length of unloaded tread represented by the point [m]; in 3D its area [m^2]
 };
 
 /// The whole tread. In 2D by azimuth: in the contact zone there are all quadrature points, elsewhere, where

@@ -122,13 +122,12 @@ ContactSummary contact_summary(const ContactPatch<dim>& contact) {
                          .descent = contact.rim.towards_ground};
   std::vector<GroundPoint> points;
   for (const auto& point : contact.points) {
-    const double pressure = -point.traction[0];
     const Vec<dim> on_ground = point.ground_traction();
     summary.radial_force -= point.weight * on_ground[0];
-    summary.peak_pressure = std::max(summary.peak_pressure, pressure);
+    summary.peak_pressure = std::max(summary.peak_pressure, point.pressure());
     summary.friction_force += point.weight * on_ground[1];
-    summary.peak_friction = std::max(summary.peak_friction, std::abs(point.traction[1]));
-    points.push_back({point.position[1], point.augmented[0]});
+    summary.peak_friction = std::max(summary.peak_friction, std::abs(point.stress()[1]));
+    points.push_back({point.place()[1], point.augmented[0] / point.stretch});
   }
   const auto patch = lobes(std::move(points));
   for (const Lobe& lobe : patch) summary.patch_length += lobe.end - lobe.begin;

@@ -1,5 +1,8 @@
 #include "wheelwright/run/checkpoints/checkpoint.h"
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "wheelwright/files/level_set_file.h"
@@ -8,7 +11,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT", state_kind = "STAT", evaluation_kind = "EVAL";
-constexpr std::uint32_t format_version = 10;
+constexpr std::uint32_t format_version = 11;
 
 constexpr int saved_own_unit = static_cast<int>(UnitKind::power) + 1;
 
@@ -161,10 +164,40 @@ std::vector<int> read_integers(ByteReader& reader, std::string_view name) {
                        [&](int& value) { value = static_cast<int>(reader.integer(0, largest_int, name)); });
 }
 
+/// Displacements are saved where there is material, elsewhere they are NaN.
+void append(const StartDisplacements& starts, ByteWriter& writer) {
+  append_all(starts, writer, [&](const StartDisplacement& start) {
+    const auto& [ground, displacement] = start;
+    const auto& [column, offset, camber] = ground;
+    const auto& [components, values, is_odd_row, odd_values] = displacement;
+    assert(is_odd_row.empty() && odd_values.empty());
+    writer.integer(column);
+    writer.number(offset);
+    writer.number(camber);
+    writer.integer(components);
+    writer.numbers(values);
+  });
+}
+
+StartDisplacements read_starts(ByteReader& reader) {
+  return read_all<StartDisplacement>(reader, 3 * count_size + 2 * number_size, [&](StartDisplacement& start) {
+    auto& [ground, displacement] = start;
+    auto& [column, offset, camber] = ground;
+    column = static_cast<int>(reader.integer(0, largest_int, "the column of a displacement to start from"));
+    offset = reader.finite_number("the place of a displacement to start from");
+    camber = reader.finite_number("the camber of a displacement to start from");
+    displacement.components =
+        static_cast<int>(reader.integer(1, 3, "the components of a displacement to start from"));
+    displacement.values = reader.numbers();
+    if (std::ranges::any_of(displacement.values, [](double value) { return std::isinf(value); }))
+      reader.fail("a displacement to start from is not finite");
+  });
+}
+
 template <int dim>
 void append(const Evaluation<dim>& evaluation, ByteWriter& writer) {
-  const auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures, edges] =
-      evaluation;
+  const auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures, edges,
+               starts] = evaluation;
   append(functions, writer);
   append(terms, writer);
   append(boundary, writer);
@@ -173,12 +206,13 @@ void append(const Evaluation<dim>& evaluation, ByteWriter& writer) {
   append_named(phases, writer);
   append_named(measures, writer);
   append(edges, writer);
+  append(starts, writer);
 }
 
 template <int dim>
 Evaluation<dim> read_evaluation(ByteReader& reader) {
   Evaluation<dim> evaluation;
-  auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures, edges] =
+  auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures, edges, starts] =
       evaluation;
   functions = read_functions(reader);
   terms = read_terms(reader);
@@ -188,6 +222,7 @@ Evaluation<dim> read_evaluation(ByteReader& reader) {
   phases = read_named<PhaseTime>(reader);
   measures = read_named<MeasureValue>(reader);
   edges = read_points<dim>(reader);
+  starts = read_starts(reader);
   return evaluation;
 }
 

@@ -409,7 +409,8 @@ typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Inte
           interrupt = std::move(interrupt)](const CutShape<dim>& shape,
                                             const Evaluation<dim>* previous) -> Expected<Evaluated<dim>> {
     const Matrix* held_mean = holds_mean && previous ? &previous->mean_observations : nullptr;
-    auto evaluated = evaluate<dim>(*solver, functions, shape, held_mean, interrupt, cases);
+    auto evaluated = evaluate<dim>(*solver, functions, shape, held_mean, interrupt, cases,
+                                   previous ? previous->starts : StartDisplacements());
     if (!evaluated) return evaluated;
     if (auto failure = material_overlaps(*solver, shape.psi, *evaluated->state)) return *failure;
     for (const auto& other : evaluated->others)
