@@ -117,17 +117,18 @@ Expected<std::vector<std::vector<DeformedAdjoint<dim>>>> solve_adjoints(
                                                         std::vector<DeformedAdjoint<dim>>(n_positions));
   std::vector<std::optional<Failure>> failures(n_positions);
   parallel_for(n_positions, [&](int i) {
-    const auto equilibrium = problem.linearized(solution, solution.equilibria[i]);
-    if (!equilibrium) {
-      failures[i] = equilibrium.failure();
+    const auto linearized = problem.linearized(solution, solution.equilibria[i]);
+    if (!linearized) {
+      failures[i] = linearized.failure();
       return;
     }
-    const RingLinearization<dim>& tangent = *equilibrium->linearization;
+    const RingEquilibrium<dim>& equilibrium = linearized->solution;
+    const RingLinearization<dim>& tangent = *linearized->linearization;
     for (int f = 0; f < n_functions; ++f) {
       std::vector<double> of_function(loads[i].columns(), 0.0);
       if (const Matrix& on_tread = functions[f].tread_loads; on_tread.columns() > 0)
         for (int c = 0; c < grid.ring_columns(); ++c)
-          ring.tread.add_loads(equilibrium->v, c, on_tread.column(i * grid.ring_columns() + c),
+          ring.tread.add_loads(equilibrium.v, c, on_tread.column(i * grid.ring_columns() + c),
                                of_function.data());
       const double energy = functions[f].energy.empty() ? 0 : functions[f].energy[i];
       for (int k = 0; k < loads[i].columns(); ++k)
@@ -141,7 +142,7 @@ Expected<std::vector<std::vector<DeformedAdjoint<dim>>>> solve_adjoints(
       if (!functions[f].rim.empty()) on_contact.back().rim = functions[f].rim[i];
       if (!functions[f].tractions.empty()) on_contact.back().tractions = functions[f].tractions[i];
     }
-    const auto adjoints = contact_multipliers<dim>(equilibrium->contact, equilibrium->state, on_contact);
+    const auto adjoints = contact_multipliers<dim>(equilibrium.contact, equilibrium.state, on_contact);
     if (!adjoints) {
       failures[i] = adjoints.failure();
       return;

@@ -198,7 +198,7 @@ Expected<LargeDeformation<dim>, EquilibriumFailure> LargeDeformationProblem<dim>
 }
 
 template <int dim>
-Expected<RingEquilibrium<dim>, EquilibriumFailure> LargeDeformationProblem<dim>::linearized(
+Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> LargeDeformationProblem<dim>::linearized(
     const LargeDeformation<dim>& solution, const RingEquilibrium<dim>& equilibrium) const {
   return EquilibriumSolver<dim>(solution.model, solution.ring->problem, small_strains_->tread())
       .linearized(equilibrium);

@@ -72,8 +72,8 @@ class LargeDeformationProblem : public StateSolver<dim> {
                                                                   const LargeDeformation<dim>& solution,
                                                                   const Interrupt& interrupt = {}) const;
 
-  /// The equilibrium with a linearization at its displacement, which it need not have.
-  Expected<RingEquilibrium<dim>, EquilibriumFailure> linearized(
+  /// An equilibrium of the solution, linearized at its displacement.
+  Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized(
       const LargeDeformation<dim>& solution, const RingEquilibrium<dim>& equilibrium) const;
 
  private:

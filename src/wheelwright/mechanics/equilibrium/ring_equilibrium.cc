@@ -145,7 +145,8 @@ auto EquilibriumSolver<dim>::newton(const RimControl& rim, GroundPosition ground
       v = sum(std::move(v), 1, last.step);
       const double energy = problem_.forms.energy(v);
       return checked({ground, std::move(v), std::move(last.contact), std::move(last.state), energy,
-                      *linearization, n_tangents, n_corrections});
+                      n_tangents, n_corrections},
+                     **linearization);
     };
     if (converged(*wanted)) return solved(*std::move(wanted));
     bool is_good = true;
@@ -254,16 +255,16 @@ auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<Eq
 }
 
 template <int dim>
-auto EquilibriumSolver<dim>::checked(RingEquilibrium<dim> solution) const -> Result {
-  if (is_stable(*solution.linearization, solution.contact, solution.state)) return solution;
+auto EquilibriumSolver<dim>::checked(RingEquilibrium<dim> solution, const RingLinearization<dim>& near) const
+    -> Result {
+  if (is_stable(near, solution.contact, solution.state)) return solution;
   EquilibriumFailure failure{{FailureReason::not_positive_definite,
                               fmt::format("the deformed wheel is unstable at a travel of {:.4g} m",
                                           solution.state.rim.towards_ground)}};
   const std::vector<double> zero(solution.v.size(), 0.0);
   const auto undeformed = linearize(zero, solution.ground, solution.state.zone.n_columns / 2);
   if (undeformed)
-    failure.instability =
-        first_instability(*solution.linearization, **undeformed, solution.contact, solution.state);
+    failure.instability = first_instability(near, **undeformed, solution.contact, solution.state);
   if (failure.instability)
     failure.detail += fmt::format(": the stiffness of its weakest mode is {:.3g} of the undeformed wheel's",
                                   failure.instability->eigenvalue);
@@ -315,7 +316,8 @@ auto EquilibriumSolver<dim>::beyond(const RimControl& rim, const RingEquilibrium
 
 template <int dim>
 auto EquilibriumSolver<dim>::linearized(const RingEquilibrium<dim>& solution,
-                                        const Interrupt& interrupt) const -> Result {
+                                        const Interrupt& interrupt) const
+    -> Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> {
   auto linearization = linearize(solution.v, solution.ground, solution.state.zone.n_columns / 2);
   if (!linearization) return EquilibriumFailure{linearization.failure()};
   auto last = correction(**linearization, (**linearization).forces(), solution.v, rim_control(model_),
@@ -325,8 +327,7 @@ auto EquilibriumSolver<dim>::linearized(const RingEquilibrium<dim>& solution,
   result.v = sum(std::move(result.v), 1, last->step);
   result.contact = std::move(last->contact);
   result.state = std::move(last->state);
-  result.linearization = *std::move(linearization);
-  return result;
+  return LinearizedEquilibrium<dim>{std::move(result), *std::move(linearization)};
 }
 
 template class EquilibriumSolver<2>;

@@ -18,10 +18,16 @@ struct RingEquilibrium {
   std::vector<double> v;  ///< without the rim's motion, on the dofs of RingSpace
   ReducedContact<dim> contact;
   ContactState<dim> state;
-  double strain_energy;  ///< the stored energy of the material [J/m or J]
-  std::shared_ptr<const RingLinearization<dim>> linearization;  ///< at v, or next to it
-  int n_tangents = 0;                                           ///< that were assembled and factored
-  int n_corrections = 0;                                        ///< steps with an older tangent
+  double strain_energy;   ///< the stored energy of the material [J/m or J]
+  int n_tangents = 0;     ///< that were assembled and factored
+  int n_corrections = 0;  ///< steps with an older tangent
+};
+
+/// With the equations linearized at its displacement: much larger than the solution.
+template <int dim>
+struct LinearizedEquilibrium {
+  RingEquilibrium<dim> solution;
+  std::shared_ptr<const RingLinearization<dim>> linearization;
 };
 
 /// A displacement to start from, perhaps with its contact.
@@ -63,9 +69,9 @@ class EquilibriumSolver {
                                                                  const EquilibriumStart<dim>& start,
                                                                  const Interrupt& interrupt = {}) const;
 
-  /// A solution with a linearization at its displacement, which may have come from an older one.
-  Expected<RingEquilibrium<dim>, EquilibriumFailure> linearized(const RingEquilibrium<dim>& solution,
-                                                                const Interrupt& interrupt = {}) const;
+  /// A solution linearized at its displacement.
+  Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized(const RingEquilibrium<dim>& solution,
+                                                                      const Interrupt& interrupt = {}) const;
 
  private:
   using Result = Expected<RingEquilibrium<dim>, EquilibriumFailure>;
@@ -80,8 +86,8 @@ class EquilibriumSolver {
                                                   const std::vector<double>& v, const RimControl& rim,
                                                   const std::optional<ContactState<dim>>& known,
                                                   const Interrupt& interrupt) const;
-  /// The solution if it is stable, or the failure with its mode.
-  Result checked(RingEquilibrium<dim> solution) const;
+  /// The solution if it is stable, or the failure with its mode. `near`: a linearization next to it.
+  Result checked(RingEquilibrium<dim> solution, const RingLinearization<dim>& near) const;
   /// The failure, with its mode if it is known by `unstable` alone.
   EquilibriumFailure explained(EquilibriumFailure failure, GroundPosition ground) const;
   /// From a solution under a part of the load by the rim's travel, to the load or to its maximum.
