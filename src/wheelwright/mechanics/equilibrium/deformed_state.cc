@@ -1,6 +1,7 @@
 #include "wheelwright/mechanics/equilibrium/deformed_state.h"
 
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -172,16 +173,16 @@ class DeformedState : public State<dim> {
   Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
       std::span<const RollingModel<dim>> models) const override {
     std::vector<std::vector<ContactPatch<dim>>> result;
-    const LargeDeformation<dim>* last = &solution_;
-    std::optional<LargeDeformation<dim>> solved;
+    std::deque<LargeDeformation<dim>> solved;  // the last two
     for (const RollingModel<dim>& model : models) {
-      auto next = problem_.solve_under(model, *last);
+      auto next = problem_.solve_under(model, solved.empty() ? solution_ : solved.back(), {},
+                                       solved.size() < 2 ? nullptr : &solved.front());
       if (!next) return Failure(next.failure());
-      solved = *std::move(next);
-      last = &*solved;
+      solved.push_back(*std::move(next));
+      if (solved.size() > 2) solved.pop_front();
       result.emplace_back();
-      for (const auto& equilibrium : solved->equilibria)
-        result.back().push_back(deformed_patch(*solved, equilibrium));
+      for (const auto& equilibrium : solved.back().equilibria)
+        result.back().push_back(deformed_patch(solved.back(), equilibrium));
     }
     return result;
   }

@@ -36,6 +36,12 @@ std::optional<Failure> unsupported_model(const RollingModel<dim>& model) {
   return unsupported_loads(model);
 }
 
+/// What grows along a curve of loads: the travel where it is given, or the load.
+template <int dim>
+double load_parameter(const RollingModel<dim>& model) {
+  return model.travel.value_or(model.load);
+}
+
 /// Continues a displacement to the nodes of a ring that had no material: layer by layer, each node by the
 /// mean of the straight lines through its neighbours with values and the nodes behind them, or of its
 /// neighbours where there are no such lines.
@@ -190,9 +196,16 @@ Expected<LargeDeformation<dim>, EquilibriumFailure> LargeDeformationProblem<dim>
 
 template <int dim>
 Expected<LargeDeformation<dim>, EquilibriumFailure> LargeDeformationProblem<dim>::solve_under(
-    const RollingModel<dim>& model, const LargeDeformation<dim>& solution, const Interrupt& interrupt) const {
+    const RollingModel<dim>& model, const LargeDeformation<dim>& solution, const Interrupt& interrupt,
+    const LargeDeformation<dim>* earlier) const {
+  const double there = load_parameter(solution.model);
+  const double ahead =
+      earlier ? (load_parameter(model) - there) / (there - load_parameter(earlier->model)) : 0;
   const auto start = [&](int i) -> std::optional<EquilibriumStart<dim>> {
-    return EquilibriumStart<dim>{solution.equilibria[i].v, solution.equilibria[i].state};
+    EquilibriumStart<dim> result{solution.equilibria[i].v, solution.equilibria[i].state};
+    for (size_t k = 0; ahead != 0 && k < result.v.size(); ++k)
+      result.v[k] += ahead * (result.v[k] - earlier->equilibria[i].v[k]);
+    return result;
   };
   return roll(model, solution.ring, solution.positions, start, interrupt);
 }

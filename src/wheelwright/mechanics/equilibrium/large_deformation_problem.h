@@ -67,10 +67,11 @@ class LargeDeformationProblem : public StateSolver<dim> {
                                                             const StartDisplacements& starts = {},
                                                             const Interrupt& interrupt = {}) const;
 
-  /// The same shape and positions under other loads, from a solution.
-  Expected<LargeDeformation<dim>, EquilibriumFailure> solve_under(const RollingModel<dim>& model,
-                                                                  const LargeDeformation<dim>& solution,
-                                                                  const Interrupt& interrupt = {}) const;
+  /// The same shape and positions under other loads, from a solution; or from the straight line through it
+  /// and an `earlier` one, under a load (or travel) that differs from its own.
+  Expected<LargeDeformation<dim>, EquilibriumFailure> solve_under(
+      const RollingModel<dim>& model, const LargeDeformation<dim>& solution, const Interrupt& interrupt = {},
+      const LargeDeformation<dim>* earlier = nullptr) const;
 
   /// An equilibrium of the solution, linearized at its displacement.
   Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized(

@@ -35,6 +35,24 @@ Expected<std::vector<ContactSummary>> under(const State<dim>& state, const Rolli
   return summaries(contacts->front());
 }
 
+/// All positions under every model, each started from the one before; where one fails, its neighbours are
+/// started from the state.
+template <int dim>
+void append_under(const State<dim>& state, std::span<const RollingModel<dim>> models,
+                  std::vector<Expected<std::vector<ContactSummary>>>& result) {
+  if (models.empty()) return;
+  const auto contacts = state.contacts_under(models);
+  if (contacts) {
+    for (const auto& of_model : *contacts) result.push_back(summaries(of_model));
+  } else if (models.size() == 1) {
+    result.push_back(contacts.failure());
+  } else {
+    const std::size_t half = models.size() / 2;
+    append_under<dim>(state, models.first(half), result);
+    append_under<dim>(state, models.subspan(half), result);
+  }
+}
+
 std::vector<double> values(const std::vector<ContactSummary>& positions, double ContactSummary::*member) {
   std::vector<double> result;
   for (const ContactSummary& position : positions) result.push_back(position.*member);
@@ -123,8 +141,10 @@ RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim
 template <int dim>
 std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
                                                                std::span<const double> loads) {
+  std::vector<RollingModel<dim>> models;
+  for (const double load : loads) models.push_back(at_load(state.model(), load));
   std::vector<Expected<std::vector<ContactSummary>>> result;
-  for (const double load : loads) result.push_back(under(state, at_load(state.model(), load)));
+  append_under<dim>(state, models, result);
   return result;
 }
 

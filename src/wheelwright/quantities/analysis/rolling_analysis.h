@@ -38,8 +38,8 @@ struct RollingAnalysis {
 template <int dim>
 RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state);
 
-/// All positions under other loads, each started from the state: [load][position]. A load fails on its own,
-/// as the contact problem does.
+/// All positions under other loads, in an order in which each is near the one before: [load][position]. A
+/// load fails on its own, as the contact problem does.
 template <int dim>
 std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
                                                                std::span<const double> loads);
