@@ -543,6 +543,22 @@ TEST_F(CommandLine, TheEstimateOfTheMemoryIsRightToAQuarter) {
   }
 }
 
+TEST_F(CommandLine, TheEstimateOfTheMemoryOfLargeDeformationIsRightToAQuarter) {
+  const std::string wheel =
+      "[material]\nyoungs_modulus = 8e6\nmodel = \"neo_hookean\"\n[load]\nforce = 1500\npositions = "
+      "2\n[optimizer]\nrim_band = 0.0101\ntread_band = 0.0201\n[output]\nerrors = \"none\"\n[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n";
+  for (const char* grid : {"radial_cells = 14\nangular_cells = 192\n",
+                           "radial_cells = 28\nangular_cells = 384\n"}) {  // each takes more
+    std::ofstream(folder() / "case.toml") << wheel << "[grid]\n" << grid;
+    const double estimate = estimated_memory(problem_size(*read_case(folder() / "case.toml").value));
+    const Outcome run = wheelwright(
+        fmt::format("run case.toml --iterations 0 --output {}", std::string(grid).substr(15, 2)), folder());
+    ASSERT_EQ(run.code, exit_done) << run.output;
+    EXPECT_GT(estimate / peak_of_children(), 1 / 1.25) << grid;
+    EXPECT_LT(estimate / peak_of_children(), 1.25) << grid;
+  }
+}
+
 TEST_F(CommandLine, InitWritesACaseThatChecksAndNeverOverwrites) {
   const std::string file = in_folder("new.toml");
   EXPECT_EQ(wheelwright("init " + file).code, exit_done);

@@ -15,9 +15,17 @@ struct Copies {
 };
 constexpr Copies in_the_plane{3.5, 0.55, 0.1}, in_space{3, 0.55, 4};
 
+/// At large deformation: quadrature and fields of the ring, and of every position that is solved its tangent
+/// with the factor, in the plane.
+double memory_at_large_deformation(const ProblemSize& n) {
+  constexpr double libraries = 26e6, of_ring = 400, of_position = 1220;  // bytes per dof
+  return libraries + n.dofs * (of_ring + of_position * n.rings_at_once);
+}
+
 }  // namespace
 
 double estimated_memory(const ProblemSize& n) {
+  if (n.rings_at_once > 0) return memory_at_large_deformation(n);
   constexpr double number = sizeof(double), complex = 2 * number;
   const bool in_3d = n.dimension == 3;
   const Copies& copies = in_3d ? in_space : in_the_plane;
@@ -42,6 +50,11 @@ double estimated_memory(const ProblemSize& n) {
   const double shape = number * 10 * n.holes;
   return libraries + fields + n.rings * (factor + condensed + harmonics) + responses + surface + tread +
          zones + shape;
+}
+
+double estimated_seconds_at_large_deformation(const ProblemSize& n) {
+  constexpr double per_dof = 7e-6;  // two to three tangents, five corrections, two adjoints
+  return per_dof * n.dofs * n.positions;
 }
 
 double estimated_seconds_in_3d(const ProblemSize& n) {

@@ -17,6 +17,9 @@ struct ProblemSize {
   double tractions;               ///< components at the contact points of a column
   double observed;                ///< numbers observed per column of the tread
   double zone_columns, loaded_columns;
+  /// At large deformation: load positions that are solved at once, each with a factor of the full ring; 0:
+  /// with small strains.
+  double rings_at_once;
 
   double sector_line() const { return ring_line / sectors; }
   double boundary() const { return radial_line + sector_line(); }
@@ -31,6 +34,10 @@ struct ProblemSize {
 /// the full ring, the factor of one sector and its condensed stiffness, the harmonics of its interfaces, the
 /// compliances of the outer line and of the surface, the tread's observations and the contact zones.
 double estimated_memory(const ProblemSize& size);
+
+/// Time of one shape at large deformation on one core [s], within a factor of two, if it is started from the
+/// one before; a first shape takes twice as long.
+double estimated_seconds_at_large_deformation(const ProblemSize& size);
 
 /// Time of one shape in 3D on one core [s], within a factor of two: the harmonics, the sector's factor and
 /// the contact operator, with measured speeds.

@@ -134,6 +134,12 @@ std::string time_report(const Case& c) {
                                           estimated_seconds_in_3d(problem_size_of_grooves(c))));
 }
 
+std::string time_at_large_deformation(const Case& c) {
+  return line("time", fmt::format("about {:.2g} s for one shape on one core, at large deformation; the first "
+                                  "one takes twice as long",
+                                  estimated_seconds_at_large_deformation(problem_size(c))));
+}
+
 std::string drawing_report(const Case& c) {
   std::string report;
   for (const auto& [key, text] : drawing_repetitions(c)) report += line(key, text);
@@ -159,7 +165,9 @@ std::string size_report(const Case& c) {
          line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
                                       dof_bound(c) / c.wheel.sectors)) +
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(problem_size(c)) / 1e6))) +
-         (c.wheel.dimension == 3 ? time_report(c) : "");
+         (has_large_strains(c)     ? time_at_large_deformation(c)
+          : c.wheel.dimension == 3 ? time_report(c)
+                                   : "");
 }
 
 /// Lengths given in millimetres yield a wheel of hundreds of metres.

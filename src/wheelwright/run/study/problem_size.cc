@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 
 namespace wheelwright {
 namespace {
@@ -88,6 +90,9 @@ ProblemSize problem_size(const Case& c) {
   size.observed = 2 * c.wheel.dimension * points;
   for (const Case& single : single_load_cases(c))
     size.zone_columns = std::max(size.zone_columns, contact_columns(single));
+  if (has_large_strains(c))
+    size.rings_at_once =
+        std::min<double>(c.load.positions, std::max(1U, std::thread::hardware_concurrency()));
   size.loaded_columns = std::min(size.columns / size.sectors, size.positions * size.zone_columns);
   return size;
 }
