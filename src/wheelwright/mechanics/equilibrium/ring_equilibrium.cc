@@ -10,6 +10,7 @@
 #include "wheelwright/mechanics/contact/contact_results.h"
 #include "wheelwright/mechanics/contact/contact_solver.h"
 #include "wheelwright/mechanics/contact/contact_starts.h"
+#include "wheelwright/mechanics/equilibrium/softening.h"
 #include "wheelwright/mechanics/rolling/rolled_contact.h"
 
 namespace wheelwright {
@@ -236,7 +237,7 @@ auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<Eq
       length /= 2;
       if (length >= smallest_step * first && !(solved.failure().instability && length < first / 4)) continue;
       if (!model_.travel && last) return beyond(rim, *last, solved.failure(), interrupt);
-      return explained(solved.failure(), ground);
+      return explained(solved.failure(), ground, last ? &*last : nullptr);
     }
     n_tangents += solved->n_tangents;
     n_corrections += solved->n_corrections;
@@ -272,9 +273,17 @@ auto EquilibriumSolver<dim>::checked(RingEquilibrium<dim> solution, const RingLi
 }
 
 template <int dim>
-EquilibriumFailure EquilibriumSolver<dim>::explained(EquilibriumFailure failure,
-                                                     GroundPosition ground) const {
-  if (failure.instability || failure.unstable.empty()) return failure;
+EquilibriumFailure EquilibriumSolver<dim>::explained(EquilibriumFailure failure, GroundPosition ground,
+                                                     const RingEquilibrium<dim>* last) const {
+  if (failure.instability) return failure;
+  if (const auto stretch = last ? smallest_stretch_of_saint_venant(problem_.forms, last->v) : std::nullopt;
+      stretch && *stretch < softening_stretch)
+    return {
+        {FailureReason::overload,
+         fmt::format("at a travel of {:.4g} m material is compressed to {:.2g} of its length, but the stress "
+                     "of Saint Venant and Kirchhoff's law falls below {:.2g}; neo_hookean stiffens",
+                     last->state.rim.towards_ground, *stretch, softening_stretch)}};
+  if (failure.unstable.empty()) return failure;
   const int half = half_zone(model_.travel.value_or(0));
   failure.instability =
       instability_off_the_ground(problem_, failure.unstable, {ground.column - half, 2 * half});
@@ -287,22 +296,28 @@ EquilibriumFailure EquilibriumSolver<dim>::explained(EquilibriumFailure failure,
 template <int dim>
 auto EquilibriumSolver<dim>::beyond(const RimControl& rim, const RingEquilibrium<dim>& last,
                                     EquilibriumFailure failure, const Interrupt& interrupt) const -> Result {
-  constexpr double step = 0.0125, farthest = 0.5;  // of the thickness
+  constexpr double step = 0.0125, shortest = step / 8, farthest = 0.5;  // of the thickness
   const double thickness = model_.grid.outer_radius - model_.grid.inner_radius, wanted = pressing_force(rim);
-  EquilibriumStart<dim> from{last.v, last.state};
   double travel = last.state.rim.towards_ground, largest = last.state.rim_force.towards_ground,
          at_largest = travel;
-  while (travel < farthest * thickness) {
-    travel += step * thickness;
+  RingEquilibrium<dim> reached = last;
+  for (double length = step; travel < farthest * thickness;) {
     RimControl held;
-    held.prescribed.towards_ground = travel;
+    held.prescribed.towards_ground = travel + length * thickness;
     for (const FreeMotion& motion : rim.free)
       if (motion.direction.towards_ground == 0) held.free.push_back(motion);
-    const auto solved = solve_under(held, last.ground, from, interrupt);
-    if (!solved) return explained(std::move(failure), last.ground);
-    const double force = solved->state.rim_force.towards_ground;
-    from = {solved->v, solved->state};
-    if (force >= wanted) return solve_under(rim, last.ground, from, interrupt);
+    auto solved = solve_under(held, last.ground, {reached.v, reached.state}, interrupt);
+    if (!solved) {
+      if (solved.failure().reason == FailureReason::interrupted) return solved;
+      length /= 2;
+      if (length >= shortest) continue;
+      return explained(solved.failure().instability ? solved.failure() : std::move(failure), last.ground,
+                       &reached);
+    }
+    reached = *std::move(solved);
+    travel = reached.state.rim.towards_ground;
+    const double force = reached.state.rim_force.towards_ground;
+    if (force >= wanted) return solve_under(rim, last.ground, {reached.v, reached.state}, interrupt);
     if (force < largest)
       return EquilibriumFailure{
           {FailureReason::overload,
@@ -311,7 +326,7 @@ auto EquilibriumSolver<dim>::beyond(const RimControl& rim, const RingEquilibrium
     largest = force;
     at_largest = travel;
   }
-  return explained(std::move(failure), last.ground);
+  return explained(std::move(failure), last.ground, &reached);
 }
 
 template <int dim>

@@ -52,7 +52,8 @@ struct EquilibriumFailure : Failure {
 /// step that fails is halved. Fails with
 ///   newton_stalled         if steps become too small,
 ///   not_positive_definite  if the wheel is unstable with the contact held (is_stable()),
-///   overload               if material is turned inside out, or the load has a maximum below the wanted one,
+///   overload               if material is turned inside out or softens in compression, or the load has a
+///                          maximum below the wanted one,
 ///   and as solve_contact() does.
 template <int dim>
 class EquilibriumSolver {
@@ -88,8 +89,10 @@ class EquilibriumSolver {
                                                   const Interrupt& interrupt) const;
   /// The solution if it is stable, or the failure with its mode. `near`: a linearization next to it.
   Result checked(RingEquilibrium<dim> solution, const RingLinearization<dim>& near) const;
-  /// The failure, with its mode if it is known by `unstable` alone.
-  EquilibriumFailure explained(EquilibriumFailure failure, GroundPosition ground) const;
+  /// The failure, with its mode if it is known by `unstable` alone; or with the reason that the material
+  /// softens in compression at the last solution before it, if there is one.
+  EquilibriumFailure explained(EquilibriumFailure failure, GroundPosition ground,
+                               const RingEquilibrium<dim>* last) const;
   /// From a solution under a part of the load by the rim's travel, to the load or to its maximum.
   Result beyond(const RimControl& rim, const RingEquilibrium<dim>& last, EquilibriumFailure failure,
                 const Interrupt& interrupt) const;

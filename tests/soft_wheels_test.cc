@@ -1,0 +1,102 @@
+#include "tests/soft_wheels.h"
+
+#include <gtest/gtest.h>
+
+#include <ctime>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "wheelwright/base/parallel.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/write.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/run/study/study.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::SoftWheels;
+
+/// Whether a wheel may end so: what gives way is the wheel, not the method.
+bool is_physics(FailureReason reason) {
+  switch (reason) {
+    case FailureReason::not_positive_definite:  // it buckles
+    case FailureReason::overload:               // its load has a maximum
+    case FailureReason::material_overlaps:
+    case FailureReason::rim_under_ground:
+    case FailureReason::sliding:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::string unbalanced(const State<2>& state) {
+  const RollingModel<2>& model = state.model();
+  for (const auto& contact : state.contacts()) {
+    double force = 0;
+    for (const auto& point : contact.points) force -= point.weight * point.ground_traction()[0];
+    const double wanted = model.travel ? contact.rim_force.towards_ground : model.load;
+    if (!(std::abs(force - wanted) <= 1e-8 * wanted))
+      return "the contact carries " + std::to_string(force / wanted);
+    if (!(force > 0)) return "the ground pulls";
+  }
+  return "";
+}
+
+struct End {
+  std::string kind;  ///< "solved", "refused" or the reason of the failure
+  std::string complaint;
+  double travel = 0;  ///< by the ring's thickness
+};
+
+End end_of(const Case& drawn) {
+  const CaseResult read = parse_case(to_toml(drawn), "soft.toml");
+  if (!read.value) return {"refused", read.problems.front().text()};
+  const auto solver = make_solver(rolling_model<2>(*read.value));
+  if (!solver) return {"refused", solver.failure().detail};
+  const LevelSet<2> shape = initial_shape<2>(*read.value);
+  const auto states = (*solver)->states(shape, (*solver)->distinct_positions(shape), Interrupt());
+  const auto failed = [](const Failure& failure) {
+    return End{to_string(failure.reason), is_physics(failure.reason) ? "" : failure.detail};
+  };
+  if (!states) return failed(states.failure());
+  if (const auto failure = material_overlaps(**solver, shape, **states)) return failed(*failure);
+  const PolarGrid<2>& grid = (*solver)->model().grid;
+  return {"solved", unbalanced(**states),
+          (*states)->contacts().front().travel() / (grid.outer_radius - grid.inner_radius)};
+}
+
+/// Every wheel is solved and balanced, or ends with a reason that is its own.
+void expect_an_end_of_each(int n, unsigned seed) {
+  const ThreadLimit one_thread(1);
+  SoftWheels wheels(seed);
+  std::map<std::string, int> count;
+  double longest = 0, least = 1, most = 0;
+  for (int k = 0; k < n; ++k) {
+    const Case c = wheels.draw();
+    const std::clock_t begin = std::clock();
+    const End end = end_of(c);
+    const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    longest = std::max(longest, seconds);
+    ++count[end.kind];
+    if (end.kind == "solved") {
+      least = std::min(least, end.travel);
+      most = std::max(most, end.travel);
+    }
+    EXPECT_LT(seconds, 60) << "wheel " << k;
+    if (!end.complaint.empty())
+      ADD_FAILURE() << "wheel " << k << ", " << end.kind << ": " << end.complaint << "\n" << to_toml(c);
+  }
+  for (const auto& [kind, number] : count) std::cout << number << " " << kind << ", ";
+  std::cout << "travels from " << 100 * least << " to " << 100 * most << " % of the ring; at most " << longest
+            << " s each\n";
+  EXPECT_GE(count["solved"], 0.75 * n);
+}
+
+TEST(SoftWheels, AreSolvedOrEndWithAReason) { expect_an_end_of_each(8, 1); }
+TEST(SoftWheels, AreSolvedOrEndWithAReasonSlow) { expect_an_end_of_each(200, 2); }
+
+}  // namespace
+}  // namespace wheelwright
