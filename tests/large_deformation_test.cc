@@ -9,6 +9,7 @@
 #include "tests/support.h"
 #include "wheelwright/mechanics/equilibrium/large_deformation_problem.h"
 #include "wheelwright/mechanics/hyperelastic/hyperelastic_law.h"
+#include "wheelwright/quantities/functionals/largest_strain.h"
 #include "wheelwright/quantities/functionals/material_density_integral.h"
 #include "wheelwright/quantities/functionals/quantities.h"
 
@@ -248,8 +249,10 @@ class StressPower : public MaterialDensityIntegral<2> {
 void expect_second_order(const RollingModel<2>& model) {
   const auto problem = LargeDeformationProblem<2>::create(model);
   ASSERT_TRUE(problem) << problem.failure().detail;
+  const PeakNorm peak{.exponent = 8, .correction = 1};  // held, as it is within a shape
   std::vector<ShapeFunction<2>> functions{{"energy", {{1, std::make_shared<StrainEnergy<2>>()}}},
-                                          {"stress", {{1, std::make_shared<StressPower>()}}}};
+                                          {"stress", {{1, std::make_shared<StressPower>()}}},
+                                          {"strain", {{1, std::make_shared<LargestStrain<2>>(peak)}}}};
   const char* of_rim = model.travel ? "radial_force" : "travel";
   functions.push_back({of_rim, {*functional_of<2>(built_in(of_rim), Over::mean, {*problem})}});
   const auto psi = testing::generic_hole(model.grid);

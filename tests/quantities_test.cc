@@ -8,11 +8,14 @@
 #include <numbers>
 
 #include "tests/support.h"
+#include "wheelwright/mechanics/elasticity/isotropic_law.h"
 #include "wheelwright/mechanics/elasticity/von_mises.h"
+#include "wheelwright/mechanics/hyperelastic/hyperelastic_law.h"
 #include "wheelwright/mechanics/state/material_integral.h"
 #include "wheelwright/optimization/sensitivity/taylor_test.h"
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
+#include "wheelwright/quantities/functionals/largest_strain.h"
 #include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/over_positions.h"
 #include "wheelwright/quantities/functionals/peak_pressure.h"
@@ -83,6 +86,7 @@ std::vector<ShapeFunction<2>> state_functions() {
           {"stiffness", {{1, stiffness}}},
           {"pressure", {{1, pressure}}},
           {"stress", {{1, stress}}},
+          {"strain", {{1, std::make_shared<LargestStrain<2>>(norm)}}},
           {"one position", {{1, travel()}}, {0, 1, 0, 0}},
           {"mean stiffness", {{1, std::make_shared<RatioOfMeans<2>>("mean stiffness", force(), travel())}}},
           over("run-out harmonic", travel(), harmonic),
@@ -374,7 +378,8 @@ TEST(Quantities, PeaksAreCorrectedNorms) {
     const std::vector<std::pair<Pointer, Pointer>> pairs{
         {std::make_shared<PeakPressure<2>>(corrected), std::make_shared<PeakPressure<2>>(plain)},
         {std::make_shared<PeakVonMises<2>>(0.025, corrected),
-         std::make_shared<PeakVonMises<2>>(0.025, plain)}};
+         std::make_shared<PeakVonMises<2>>(0.025, plain)},
+        {std::make_shared<LargestStrain<2>>(corrected), std::make_shared<LargestStrain<2>>(plain)}};
     for (const auto& [peak, norm] : pairs) {
       const auto a = peak->evaluate(*problem, psi, **state, {}),
                  b = norm->evaluate(*problem, psi, **state, {});
@@ -388,6 +393,66 @@ TEST(Quantities, PeaksAreCorrectedNorms) {
       EXPECT_GT(total(a, (*state)->positions()), 0);
     }
   }
+}
+
+/// The largest strain is the largest principal one at the points of the quadrature, also along the axle.
+TEST(Quantities, TheLargestStrainIsThatOfAPoint) {
+  auto model = coarse_model();
+  for (const Plane plane : {Plane::strain, Plane::stress}) {
+    model.materials = Material{200e6, 0.45, plane};
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const auto psi = lopsided_holes(model.grid);
+    const auto state = testing::all_states<2>(*problem, psi);
+    ASSERT_TRUE(state);
+    std::vector<double> expected((*state)->positions().size(), 0.0);
+    for_each_cell<2>(*problem, **state, StrainPower<2>(2), [&](const StrainedCell<2>& cell) {
+      for (int q = 0; q < cell.n_points(); ++q) {
+        const StrainsAtPoint<2> point = cell.at(q);
+        std::vector<double> stresses(cell.n_cases()), axial(cell.n_cases());
+        point.law.along_axle(point.strains, stresses, axial);
+        for (int j = 0; j < cell.n_cases(); ++j) {
+          const double a = point.strains[0][j], b = point.strains[1][j], c = point.strains[2][j];
+          const double in_plane = std::abs(a + b) / 2 + std::hypot(a - b, c) / 2;
+          double& largest = expected[j / cell.n_sectors()];
+          largest = std::max({largest, in_plane, std::abs(axial[j])});
+        }
+      }
+    });
+    const auto value = LargestStrain<2>().evaluate(*problem, psi, **state, {});
+    for (size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(value.by_position[i] / expected[i], 1, 1e-10);
+  }
+}
+
+template <int dim>
+void expect_slopes_of_strain_power(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
+  const StrainPower<dim> power(6);
+  const auto at = [&](const Voigt<dim>& e) {
+    double value;
+    power.densities_at({one_strain<dim>(e), 1, law, {}, {}}, {&value, 1});
+    return value;
+  };
+  Voigt<dim> slopes;
+  constexpr double factor = 2.5, step = 1e-5;
+  power.slopes_at({one_strain<dim>(strain), 1, law, {}, {}}, {&factor, 1}, one_stress<dim>(slopes));
+  for (int k = 0; k < n_strains<dim>; ++k) {
+    Voigt<dim> more = strain, less = strain;
+    more[k] += step;
+    less[k] -= step;
+    EXPECT_NEAR(slopes[k], factor * (at(more) - at(less)) / (2 * step),
+                1e-6 * factor * std::abs(at(strain)) / 0.1);
+  }
+}
+
+TEST(Quantities, StrainPowersHaveTheSlopesOfTheirDifferences) {
+  for (const Plane plane : {Plane::strain, Plane::stress}) {
+    const Material material{8e6, 0.48, plane};
+    expect_slopes_of_strain_power<2>(IsotropicLaw<2>(material), {-0.11, -0.07, 0.05});
+    expect_slopes_of_strain_power<2>(HyperelasticLaw<2>(material), {-0.11, -0.07, 0.05});
+    expect_slopes_of_strain_power<2>(HyperelasticLaw<2>(material), {0.09, -0.09, 0});  // pure shear
+  }
+  expect_slopes_of_strain_power<3>(IsotropicLaw<3>(Material{8e6, 0.48}),
+                                   {0.11, -0.07, 0.02, 0.05, -0.03, 0.04});
 }
 
 /// The von Mises stress of pure shear is sqrt(3) times the shear stress, of uniaxial strain 2 mu e, and the

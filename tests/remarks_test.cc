@@ -118,7 +118,7 @@ TEST(Remarks, SuggestBoundsThatTheProgramAccepts) {
       EXPECT_NEAR(value, remark.before, 0.01 * remark.before) << remark.constraint;
       EXPECT_TRUE(remarks(bounded, load_case, caster, worse).size() < found.size());
     }
-    EXPECT_EQ(bounds, 4);  // one for either variation, one for stress and strain
+    EXPECT_EQ(bounds, 5);  // one for either variation
   }
 }
 

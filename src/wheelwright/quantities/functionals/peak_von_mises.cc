@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "wheelwright/base/integer_power.h"
-#include "wheelwright/base/parallel.h"
-#include "wheelwright/mechanics/state/material_integral.h"
+#include "wheelwright/quantities/functionals/peak_over_material.h"
 
 namespace wheelwright {
 template <int dim>
@@ -41,42 +40,16 @@ template <int dim>
 FunctionalValue<dim> PeakVonMises<dim>::evaluate(const StateSolver<dim>& solver, const LevelSet<dim>&,
                                                  const State<dim>& state, const Matrix&) const {
   constexpr double unit = VonMisesPower<dim>::unit;
-  const int n = state.positions().size();
-  struct Sums {
-    std::vector<double> integrals, squared_peaks;
-  };
-  Sums all{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
-  const StrainedCells<dim> cells(solver, state, *power_);
-  const auto of_cell = [&](int k) {
-    const StrainedCell<dim> cell = cells[k];
-    Sums sums{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
-    std::vector<double> squares(cell.n_cases());
-    for (int q = 0; q < cell.n_points(); ++q) {
-      cell.law().squared_von_mises(cell.at(q).strains, squares);
-      for (size_t j = 0; j < squares.size(); ++j) {
-        const size_t position = j / cell.n_sectors();
-        sums.squared_peaks[position] = std::max(sums.squared_peaks[position], squares[j]);
-        sums.integrals[position] +=
-            cell.weights[q] * integer_power(squares[j] / (unit * unit), norm_.exponent / 2);
-      }
+  const auto visit = [&](const StrainsAtPoint<dim>& point, std::span<double> powers,
+                         std::span<double> squared_peaks) {
+    point.law.squared_von_mises(point.strains, powers);
+    for (size_t j = 0; j < powers.size(); ++j) {
+      double& peak = squared_peaks[j / point.n_sectors];
+      peak = std::max(peak, powers[j]);
+      powers[j] = integer_power(powers[j] / (unit * unit), norm_.exponent / 2);
     }
-    return sums;
   };
-  compute_in_parallel(cells.size(), of_cell, [&](int, const Sums& sums) {
-    for (int i = 0; i < n; ++i) {
-      all.integrals[i] += sums.integrals[i];
-      all.squared_peaks[i] = std::max(all.squared_peaks[i], sums.squared_peaks[i]);
-    }
-  });
-  FunctionalValue<dim> value;
-  std::vector<double> factors;
-  for (int i = 0; i < n; ++i) {
-    const auto norm = norm_.value(std::sqrt(all.squared_peaks[i]), all.integrals[i], unit);
-    value.by_position.push_back(norm.peak());
-    factors.push_back(norm.peak() / (norm_.exponent * all.integrals[i]));
-  }
-  value.derivative.integrals.push_back({power_, std::move(factors)});
-  return value;
+  return peak_over_material<dim>(solver, state, norm_, unit, power_, visit);
 }
 
 template <int dim>

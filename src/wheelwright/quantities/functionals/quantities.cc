@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "wheelwright/quantities/functionals/fatigue.h"
+#include "wheelwright/quantities/functionals/largest_strain.h"
 #include "wheelwright/quantities/functionals/mass.h"
 #include "wheelwright/quantities/functionals/material_volume.h"
 #include "wheelwright/quantities/functionals/over_positions.h"
@@ -183,7 +184,11 @@ std::vector<QuantityRow> material_rows() {
            .meaning = "largest principal strain",
            .label = "largest strain",
            .usual = Over::maximum,
-           .instead = "use peak_von_mises",
+           .functional =
+               []<int dim>(const QuantityContext<dim>& context) {
+                 return std::make_shared<const LargestStrain<dim>>(PeakNorm(), context.part);
+               },
+           .integrates_stresses = true,
            .is_maximum = true,
            .ranked_as = "strain",
            .has_parts = true},

@@ -203,7 +203,7 @@ bool needs_a_solution(const Expectation& expectation) {
       });
   if (is_in_history && expectation.load_case.empty()) return false;
   if (quantity == built_in("volume_fraction") || quantity->compares_with_mean) return false;
-  return quantity->functional || quantity->name == "largest_strain";
+  return static_cast<bool>(quantity->functional);
 }
 
 }  // namespace

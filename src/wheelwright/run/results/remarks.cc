@@ -91,9 +91,9 @@ const std::vector<Measure>& measures() {
        false,
        nullptr,
        "the material is strained more",
-       {built_in("peak_von_mises"), built_in("peak_von_mises")},
+       {built_in("largest_strain"), built_in("largest_strain")},
        OverPositions::worst,
-       {built_in("peak_von_mises"), built_in("peak_von_mises_inside")}}};
+       {built_in("largest_strain")}}};
   return all;
 }
 
