@@ -7,7 +7,7 @@ namespace wheelwright {
 
 namespace {
 
-constexpr std::array<Preset, 13> all{{
+constexpr std::array<Preset, 16> all{{
     {"paper16", "the wheel of the paper with 16 holes", R"(# The wheel of the paper: 16 round holes.
 
 title = "16 holes"
@@ -201,6 +201,108 @@ bend = 40
 [grid]
 radial_cells = 28
 angular_cells = 480
+)"},
+    {"soft-spokes", "an airless wheel of a soft TPU, for 100 kg, at large deformation",
+     R"(# An airless wheel of a soft TPU with 20 curved spokes, for 100 kg: large deformation.
+
+title = "Soft spokes"
+
+[wheel]
+outer_radius = "200 mm"
+inner_radius = "110 mm"
+width = "80 mm"
+sectors = 20
+
+[material]
+youngs_modulus = "26 MPa"   # TPU of about 85 Shore A
+poissons_ratio = 0.48
+model = "neo_hookean"
+
+[load]
+mass = "100 kg"
+positions = 4
+
+[[shape.annulus]]
+
+[[shape.spoke]]
+kind = "curved"
+count = 20
+thickness = "12 mm"
+angle = 10
+bend = 30
+
+[optimizer]
+rim_band = "8 mm"
+tread_band = "8 mm"
+
+[grid]
+radial_cells = 28
+angular_cells = 400
+)"},
+    {"robot", "the printed wheel of a robot, for 4 kg, at large deformation",
+     R"(# The wheel of a robot, printed from a soft TPU, 130 mm in diameter, for 4 kg: large deformation.
+
+title = "Robot"
+
+[wheel]
+outer_radius = "65 mm"
+inner_radius = "30 mm"
+width = "30 mm"
+sectors = 12
+
+[material]
+youngs_modulus = "12 MPa"   # TPU of 85 Shore A, printed
+poissons_ratio = 0.48
+plane = "stress"
+model = "neo_hookean"
+
+[load]
+mass = "4 kg"
+positions = 4
+
+[[shape.annulus]]
+
+[[shape.spoke]]
+kind = "curved"
+count = 12
+thickness = "4 mm"
+angle = 15
+bend = 50
+
+[optimizer]
+rim_band = "4 mm"
+tread_band = "4 mm"
+
+[grid]
+radial_cells = 24
+angular_cells = 240
+)"},
+    {"rubber16", "the wheel of the paper in rubber, for 300 kg, at large deformation",
+     R"(# The wheel of the paper in rubber, for 300 kg: large deformation.
+
+title = "16 holes, rubber"
+
+[material]
+youngs_modulus = "8 MPa"
+poissons_ratio = 0.48
+model = "neo_hookean"
+
+[load]
+mass = "300 kg"
+positions = 4
+
+[[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.03
+
+[optimizer]
+rim_band = "10.1 mm"
+tread_band = "20.1 mm"
+
+[grid]
+radial_cells = 14
+angular_cells = 192
 )"},
     {"bicycle", "a wheel of a bicycle cast in one piece, with pairs of spokes",
      R"(# A wheel of a bicycle, cast in one piece: ten pairs of spokes lean to both sides.
