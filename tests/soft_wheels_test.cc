@@ -5,11 +5,15 @@
 #include <ctime>
 #include <iostream>
 #include <map>
+#include <numbers>
+#include <regex>
 #include <string>
 
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/case/presets.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/mechanics/equilibrium/large_deformation_problem.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/run/study/study.h"
 
@@ -93,6 +97,43 @@ void expect_an_end_of_each(int n, unsigned seed) {
   std::cout << "travels from " << 100 * least << " to " << 100 * most << " % of the ring; at most " << longest
             << " s each\n";
   EXPECT_GE(count["solved"], 0.75 * n);
+}
+
+/// A wheel whose spokes bow out carries no more than a certain load: that is found by the rim's travel, from
+/// any larger load, and is the largest force at a held travel.
+TEST(SoftWheels, TheLargestLoadIsFoundByTheTravel) {
+  Case c = *parse_case(find_preset("soft-spokes")->text, "preset.toml").value;
+  c.grid.radial_cells = 14;
+  c.grid.angular_cells = 160;
+  c.optimizer.rim_band = c.optimizer.tread_band = 0.0129;
+  constexpr double degree = std::numbers::pi / 180;
+  SpokeShape& spoke = c.shapes.spokes.front();
+  spoke.thickness = 0.012;
+  spoke.angle = 4 * degree;
+  spoke.bend = 6 * degree;
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto solve = [&](const Case& loaded) {
+    const RollingModel<2> model = rolling_model<2>(loaded);
+    return LargeDeformationProblem<2>::create(model)->solve({shape, nullptr}, {{{0}}, {1}});
+  };
+  const auto force_at = [&](double travel) {
+    Case held = c;
+    held.load.travel = travel;
+    const auto solved = solve(held);
+    return solved ? solved->equilibria.front().state.rim_force.towards_ground : 0.0;
+  };
+  c.load.force = 9000;
+  const auto failed = solve(c);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.failure().reason, FailureReason::overload) << failed.failure().detail;
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(failed.failure().detail, match,
+                                std::regex("at most about ([0-9.e+]+) N/m .* travel of ([0-9.]+) m")))
+      << failed.failure().detail;
+  const double travel = std::stod(match[2]), largest = force_at(travel);
+  EXPECT_NEAR(std::stod(match[1]) / largest, 1, 1e-3);
+  EXPECT_LT(force_at(0.9 * travel), largest);
+  EXPECT_LT(force_at(1.1 * travel), largest);
 }
 
 TEST(SoftWheels, AreSolvedOrEndWithAReason) { expect_an_end_of_each(8, 1); }
