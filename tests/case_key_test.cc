@@ -83,9 +83,11 @@ TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
   expect_keys(j, minimize, layer, over, energy, annulus, dual, l2, matches, thickness, length, mean, norm);
   const Optimizer o;
   const auto& [method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
-               redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation, made] = o;
+               redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation, made, parting_plane,
+               draft] = o;
   expect_keys(o, method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
-              redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation, made);
+              redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation, made, parting_plane,
+              draft);
   const Output f;
   const auto& [folder, vtu, pictures, checkpoints, seconds, errors] = f;
   expect_keys(f, folder, vtu, pictures, checkpoints, seconds, errors);

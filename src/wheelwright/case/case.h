@@ -452,7 +452,7 @@ enum class OptimizerMethod {
 enum class NucleationTime { never, converged };
 
 /// How the wheel is made, which every shape of a run allows; in 3D.
-enum class Manufacture { free, extruded, turned };
+enum class Manufacture { free, extruded, turned, moulded };
 
 struct Optimizer {
   OptimizerMethod method = OptimizerMethod::automatic;
@@ -475,6 +475,8 @@ struct Optimizer {
       minimum_radius;  ///< of internal corners [m]; absent: of 0.75 cells in the last part of a run
   NucleationTime nucleation = NucleationTime::never;
   Manufacture made = Manufacture::free;
+  std::optional<double> parting_plane;  ///< z of moulded wheels [m]; absent: in the middle of the width
+  double draft = 0;                     ///< of moulded wheels [rad]
   bool operator==(const Optimizer&) const = default;
 };
 

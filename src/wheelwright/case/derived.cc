@@ -317,6 +317,7 @@ Bands bands(const Case& c) {
     result.tread.thickness = std::max(result.tread.thickness, w.outer_radius - between.back().inner);
     between.pop_back();
   }
+  result.mould = mould(c);
   return result;
 }
 
@@ -393,6 +394,13 @@ Invariance invariance(const Case& c) {
     default:
       return Invariance::none;
   }
+}
+
+std::optional<Mould> mould(const Case& c) {
+  const Optimizer& o = c.optimizer;
+  if (o.made != Manufacture::moulded) return {};
+  const double middle = c.grid.axial_cells / 2 * (c.wheel.width / c.grid.axial_cells);
+  return Mould{o.parting_plane.value_or(middle), std::tan(o.draft)};
 }
 
 std::vector<TaperedHole> sector_tapered_holes(const Case& c) {

@@ -170,6 +170,9 @@ double largest_fillet(const HoleGroove& groove);
 int sectors_of_turned_wheel(const Case& c);
 /// What the way of making the wheel asks of its shapes.
 Invariance invariance(const Case& c);
+
+/// That of a moulded wheel.
+std::optional<Mould> mould(const Case& c);
 std::vector<TaperedHole> sector_tapered_holes(const Case& c);
 
 /// Nodes of the displacement along the axle: 1 in 2D.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "wheelwright/case/common_keys.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/unlimited.h"
 
@@ -197,11 +198,21 @@ std::vector<Key<Optimizer>> search_keys() {
                   "normal; harmonic: the speed of the paper's harmonic extension; auto: vector with "
                   "sequential quadratic steps for the weighted sum without bounds in 2D, else h1"},
       {.name = "made",
-       .field = choice<&Optimizer::made>({"free", "extruded", "turned"}),
+       .field = choice<&Optimizer::made>({"free", "extruded", "turned", "moulded"}),
        .meaning =
            "in 3D, what every shape of a run is. extruded: the same all along the axle; turned: a body of "
            "revolution, by default in sectors of a few cells and, without losses and fatigue, with one load "
-           "position"},
+           "position; moulded: without undercuts in a mould of two halves that open along the axle"},
+      {.name = "parting_plane",
+       .unit = "m",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::parting_plane, between(0, 1000),
+                                               "between the cells nearest the middle of the width"},
+       .meaning = "with made = \"moulded\", z of the plane in which the halves of the mould meet, between "
+                  "cells; 0 or wheel.width: one half is flat"},
+      {.name = "draft",
+       .unit = "deg",
+       .field = NumberField<Optimizer>{&Optimizer::draft, between(0, 30), degree_of_arc},
+       .meaning = "with made = \"moulded\", the least angle between the edges of holes and the axle"},
       {.name = "velocity_length",
        .unit = "cells",
        .field =

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
@@ -74,12 +75,32 @@ void check_manufacture(const Case& c, Conflicts& found) {
     found.push_back({{key_of(&Optimizer::made)}, "drawn shapes are not bodies of revolution", remedy});
 }
 
+/// The keys of a mould need one, and it parts between cells.
+void check_mould(const Case& c, Conflicts& found) {
+  const Optimizer& o = c.optimizer;
+  for (const auto& [key, is_given] :
+       {std::pair(key_of(&Optimizer::parting_plane), o.parting_plane.has_value()),
+        std::pair(key_of(&Optimizer::draft), o.draft != 0)})
+    if (is_given && o.made != Manufacture::moulded)
+      found.push_back({{key, key_of(&Optimizer::made)},
+                       "the wheel is not moulded",
+                       "omit the key, or use made = \"moulded\""});
+  if (c.wheel.dimension != 3 || o.made != Manufacture::moulded || !o.parting_plane) return;
+  const double cell = c.wheel.width / c.grid.axial_cells, plane = *o.parting_plane;
+  const int nearest = std::clamp(static_cast<int>(std::lround(plane / cell)), 0, c.grid.axial_cells);
+  if (std::abs(plane - nearest * cell) > 1e-6 * cell)
+    found.push_back({{key_of(&Optimizer::parting_plane), key_of(&Grid::axial_cells)},
+                     fmt::format("no plane between cells lies at {:.6g} m", plane),
+                     fmt::format("use {:.6g} m, or other axial_cells", nearest * cell)});
+}
+
 }  // namespace
 
 void optimizer_conflicts(const Case& c, Conflicts& found) {
   check_method(c, found);
   check_nucleation(c, found);
   check_manufacture(c, found);
+  check_mould(c, found);
 }
 
 }  // namespace wheelwright

@@ -90,7 +90,7 @@ class CheckCommand : public Subcommand {
     const auto planes = plane_comparison(c);
     if (planes && *planes) checked.notes.push_back(comparison_text(**planes));
     checked.warnings = warnings(c);
-    warn(in_dimension_of(c, [&](auto dim) { return fitting_of_saved_shape<dim>(c); }));
+    warn(in_dimension_of(c, [&](auto dim) { return fitting_of_initial_shape<dim>(c); }));
     if (planes && *planes) warn(plane_warning(c, **planes));
     warn(predicted_warning(c));
     for (const std::string& warning : bound_warnings(c)) warn(warning);

@@ -152,26 +152,32 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
   return span;
 }
 
-/// Holds the coefficients that would move into a band: repeats the search for the move without them until no
-/// others must be held.
+/// Holds the coefficients that would move into a band, and lets control points follow those of the layer
+/// before that would pass them: repeats the search for the move until no others are added.
 template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
   constexpr int max_turns = 5;
   std::vector<bool> held(state_.shape.values.size(), false);
+  Following following;
   const double resolution = state_.shape.lattice.grid().resolution();
-  const auto hold_more = [&](const Move<dim>& move) {
-    return evolver_.hold_at_bands(motion_.coefficients(), move.velocity, move.distance * resolution, held);
+  const auto limit_more = [&](const Move<dim>& move) {
+    const auto& c = motion_.coefficients();
+    const double distance = move.distance * resolution;
+    const bool holds_more = evolver_.hold_at_bands(c, move.velocity, distance, held);
+    return evolver_.follow_in_mould(c, move.velocity, distance, following) || holds_more;
   };
-  auto move = move_with(held, step);
-  for (int turn = 0; turn < max_turns && hold_more(move); ++turn) move = move_with(held, step);
+  auto move = move_with(held, following, step);
+  for (int turn = 0; turn < max_turns && limit_more(move); ++turn) move = move_with(held, following, step);
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
 }
 
 template <int dim>
-Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held, double step) const {
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held,
+                                                       const Following& following, double step) const {
   const double measure = next_measure(options_, state_, step);
-  const auto motion = motion_.holding(held);
+  auto motion = motion_.holding(held);
+  if (following.any()) motion = motion.following(state_.shape, state_.evaluation.boundary, following);
   const Span span = span_of(motion);
   auto penalties = this->penalties();
   const auto found = step_in(motion, span, state_.measure - measure, step, penalties);

@@ -38,7 +38,7 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   };
 
   Span span_of(const BoundaryMotion<dim>& motion) const;
-  Move<dim> move_with(const std::vector<bool>& held, double step) const;
+  Move<dim> move_with(const std::vector<bool>& held, const Following& following, double step) const;
   QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
                         std::vector<double>& penalties) const;
   std::vector<double> penalties() const;

@@ -12,7 +12,7 @@ std::vector<RunWarning> of_start(const RunView<dim>& run) {
   std::vector<RunWarning> warnings;
   for (const auto& event : lost_on_the_grid<dim>(run.study.source))
     warnings.push_back({"initial shape", "the grid is too coarse for the holes of the case: " + text(event)});
-  if (const auto fitting = fitting_of_saved_shape<dim>(run.study.source))
+  if (const auto fitting = fitting_of_initial_shape<dim>(run.study.source))
     warnings.push_back({"initial shape", *fitting});
   return warnings;
 }

@@ -245,32 +245,42 @@ LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
   return psi;
 }
 
+/// The drawn or saved shape at the nodes of the case's lattice, as it is.
+template <int dim>
+LevelSet<dim> given_shape(const Case& c) {
+  const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
+  const SavedLevelSet* saved = saved_shape(c);
+  return saved ? moved_to(lattice, *saved) : drawn_on(lattice, c);
+}
+
 }  // namespace
 
 template <int dim>
-std::optional<std::string> fitting_of_saved_shape(const Case& c) {
+std::optional<std::string> fitting_of_initial_shape(const Case& c) {
   const SavedLevelSet* saved = saved_shape(c);
-  if (!saved || invariance(c) == Invariance::none) return {};
-  const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
-  const LevelSet<dim> given = moved_to(lattice, *saved), fitted = invariant_part(given, invariance(c));
-  const double cell = lattice.grid().resolution();
+  const bool is_averaged = invariance(c) != Invariance::none;
+  if (!mould(c) && !(saved && is_averaged)) return {};
+  const LevelSet<dim> fitted = initial_shape<dim>(c),
+                      given = ProtectedBands<dim>(fitted.lattice, bands(c)).clip(given_shape<dim>(c));
+  const double cell = given.lattice.grid().resolution();
   double farthest = 0;  // of the nodes near an edge
   for (std::size_t i = 0; i < given.values.size(); ++i)
     if (std::min(std::abs(given.values[i]), std::abs(fitted.values[i])) < cell)
       farthest = std::max(farthest, std::abs(given.values[i] - fitted.values[i]));
   if (farthest < 1e-6 * cell) return {};
-  return fmt::format(
-      "the saved shape is not {}: it is averaged, which moves its edges by up to about {:.2g} mm",
-      c.optimizer.made == Manufacture::turned ? "a body of revolution" : "the same along the axle",
-      1e3 * farthest);
+  const char* problem = c.optimizer.made == Manufacture::turned     ? "is not a body of revolution"
+                        : c.optimizer.made == Manufacture::extruded ? "is not the same along the axle"
+                                                                    : "does not come out of the mould";
+  return fmt::format("the {} {}: {}, which moves its edges by up to about {:.2g} mm",
+                     saved ? "saved shape" : "initial shape", problem,
+                     is_averaged ? "it is averaged" : "its holes are widened", 1e3 * farthest);
 }
 
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c) {
-  const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
-  const SavedLevelSet* saved = saved_shape(c);
-  return ProtectedBands<dim>(lattice, bands(c))
-      .keep(invariant_part(saved ? moved_to(lattice, *saved) : drawn_on(lattice, c), invariance(c)));
+  LevelSet<dim> given = given_shape<dim>(c);
+  const ProtectedBands<dim> limits(given.lattice, bands(c));
+  return limits.keep(invariant_part(std::move(given), invariance(c)));
 }
 
 template <int dim>
@@ -296,8 +306,8 @@ std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   auto given =
       invariant_part(saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c), invariance(c));
   // What layers without holes take of them is not lost on the grid.
-  if (const auto solid = solid_layers(c); !solid.empty())
-    given = ProtectedBands<dim>(samples, {.rim = {}, .tread = {}, .between = solid}).keep(std::move(given));
+  const Bands kept{.rim = {}, .tread = {}, .between = solid_layers(c), .mould = mould(c)};
+  if (!kept.between.empty() || kept.mould) given = ProtectedBands<dim>(samples, kept).keep(std::move(given));
   return topology_changes(components(given, 1), components(initial_shape<dim>(c)));
 }
 
@@ -429,7 +439,7 @@ ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
   template LoadCases<dim> load_cases<dim>(const Case&);                                                     \
   template LevelSet<dim> initial_shape(const Case&);                                                        \
   template std::optional<VolumeChange> volume_change_of_saved_shape<dim>(const Case&);                      \
-  template std::optional<std::string> fitting_of_saved_shape<dim>(const Case&);                             \
+  template std::optional<std::string> fitting_of_initial_shape<dim>(const Case&);                           \
   template OptimizerOptions optimizer_options<dim>(const Case&);                                            \
   template Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>&);         \
   template Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case&, const StateSolver<dim>&); \

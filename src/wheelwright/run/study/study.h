@@ -40,9 +40,10 @@ std::optional<VolumeChange> volume_change_of_saved_shape(const Case& c);
 /// One readable line.
 std::string text(const VolumeChange& change);
 
-/// What was done to a saved shape that cannot be made as the case asks (Optimizer::made); empty for others.
+/// What was done to an initial shape that cannot be made as the case asks (Optimizer::made); empty for
+/// others.
 template <int dim>
-std::optional<std::string> fitting_of_saved_shape(const Case& c);
+std::optional<std::string> fitting_of_initial_shape(const Case& c);
 
 EvolutionOptions evolution_options(const Case& c);
 template <int dim>

@@ -45,6 +45,74 @@ Vec<dim> gradient_at(const LevelSet<dim>& psi, int node) {
   return gradient;
 }
 
+/// The dependence of the level set at points on the coefficients of its spline, if some of its control points
+/// follow others.
+template <int dim>
+class FollowingDependences {
+ public:
+  FollowingDependences(const Lattice<dim>& lattice, const Followers& following)
+      : lattice_(lattice),
+        following_(following),
+        of_control_point_(following.size()),
+        sums_(following.size()) {}
+
+  bool follows_in(int cell) const {
+    return !following_.empty() &&
+           std::ranges::any_of(nodes_of(cell), [&](int node) { return !following_[node].empty(); });
+  }
+
+  void add(int cell, const Vec<dim>& xi, std::vector<Dependence>& to) {
+    const auto nodes = nodes_of(cell);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      double weight = 1;
+      const auto place = local_node_position<dim>(lattice_.degree(), static_cast<int>(a));
+      for (int d = 0; d < dim; ++d) weight *= bernstein(place[d], xi[d]);
+      if (following_[nodes[a]].empty()) {
+        sum(nodes[a], weight);
+      } else {
+        for (const auto& [root, share] : following_[nodes[a]]) sum(root, weight * share);
+      }
+    }
+    std::ranges::sort(touched_);
+    for (const int node : touched_) {
+      if (sums_[node] != 0) to.push_back({node, sums_[node]});
+      sums_[node] = 0;
+    }
+    touched_.clear();
+  }
+
+ private:
+  std::vector<int> nodes_of(int cell) const {
+    const auto position = lattice_.grid().cell_position(cell);
+    std::vector<int> nodes;
+    for (int a = 0; a < nodes_per_cell<dim>(lattice_.degree()); ++a)
+      nodes.push_back(lattice_.node_index(lattice_.cell_node(position, a)));
+    return nodes;
+  }
+
+  /// The polynomial of a control point on [0, 1].
+  double bernstein(int point, double x) const {
+    if (lattice_.degree() == 1) return point == 0 ? 1 - x : x;
+    return point == 0 ? (1 - x) * (1 - x) : point == 1 ? 2 * x * (1 - x) : x * x;
+  }
+
+  /// Adds the dependence of a control point.
+  void sum(int control_point, double factor) {
+    auto& dependence = of_control_point_[control_point];
+    if (dependence.empty()) dependence = control_point_dependence(lattice_, control_point);
+    for (const auto& [node, weight] : dependence) {
+      if (sums_[node] == 0) touched_.push_back(node);
+      sums_[node] += factor * weight;
+    }
+  }
+
+  const Lattice<dim>& lattice_;
+  const Followers& following_;
+  std::vector<std::vector<Dependence>> of_control_point_;  ///< those that were needed
+  std::vector<double> sums_;
+  std::vector<int> touched_;
+};
+
 }  // namespace
 
 template <int dim>
@@ -56,14 +124,18 @@ std::vector<Vec<dim>> gradients_at_nodes(const LevelSet<dim>& psi) {
 
 template <int dim>
 typename BoundaryMotion<dim>::Boundary BoundaryMotion<dim>::boundary_of(
-    const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points) {
+    const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points, const Followers& following) {
+  FollowingDependences<dim> of_followers(psi.lattice, following);
   Boundary result;
   result.places.reserve(points.size());
   result.dependences.reserve(power(4, dim) * points.size());
   for (const auto& point : points) {
     const std::size_t first = result.dependences.size();
-    add_dependences<dim>(psi.lattice, psi.lattice.grid().cell_position(point.cell), point.xi, 1,
-                         result.dependences);
+    if (of_followers.follows_in(point.cell))
+      of_followers.add(point.cell, point.xi, result.dependences);
+    else
+      add_dependences<dim>(psi.lattice, psi.lattice.grid().cell_position(point.cell), point.xi, 1,
+                           result.dependences);
     result.places.push_back({.first = first,
                              .last = result.dependences.size(),
                              .steepness = steepness_at<dim>(psi, point),
@@ -80,7 +152,8 @@ BoundaryMotion<dim>::BoundaryMotion(const LevelSet<dim>& psi, std::span<const Su
       gradients_(gradients_at_nodes<dim>(coefficients_)),
       held_(gradients_.size(), false),
       rates_(gradients_),
-      boundary_(std::make_shared<Boundary>(boundary_of(psi, boundary))) {
+      following_(std::make_shared<const Following>()),
+      boundary_(std::make_shared<Boundary>(boundary_of(psi, boundary, following_->control_points))) {
   if (kind == DeformationKind::normal_speed)
     for (auto& rate : rates_) rate = {norm<dim>(rate)};
 }
@@ -89,8 +162,17 @@ template <int dim>
 BoundaryMotion<dim> BoundaryMotion<dim>::on(const LevelSet<dim>& psi,
                                             std::span<const SurfacePoint<dim>> points) const {
   BoundaryMotion result = *this;
-  result.boundary_ = std::make_shared<const Boundary>(boundary_of(psi, points));
+  result.boundary_ = std::make_shared<const Boundary>(boundary_of(psi, points, following_->control_points));
   return result;
+}
+
+template <int dim>
+BoundaryMotion<dim> BoundaryMotion<dim>::following(const LevelSet<dim>& psi,
+                                                   std::span<const SurfacePoint<dim>> points,
+                                                   Following following) const {
+  BoundaryMotion result = *this;
+  result.following_ = std::make_shared<const Following>(std::move(following));
+  return result.on(psi, points);
 }
 
 template <int dim>
@@ -118,16 +200,38 @@ std::vector<double> BoundaryMotion<dim>::speeds_at_nodes(std::span<const double>
     for (int k = 0; k < n_components(); ++k)
       result[node] += factor[k] * deformation[k * result.size() + node];
   }
+  constexpr double least_slope = 0.3;  // below it the value is near a kink and a speed says little
+  std::vector<double> rates;
+  for (std::size_t node = 0; node < following_->coefficients.size(); ++node) {
+    if (following_->coefficients[node].empty()) continue;
+    if (rates.empty()) rates = rates_at_nodes(deformation);
+    const double slope = norm<dim>(gradients_[node]);
+    if (slope > least_slope) result[node] = rates[node] / slope;
+  }
   return result;
+}
+
+/// -dc/dt at the nodes.
+template <int dim>
+std::vector<double> BoundaryMotion<dim>::rates_at_nodes(std::span<const double> deformation) const {
+  const std::size_t n_nodes = rates_.size();
+  std::vector<double> rate(n_nodes);
+  for (int component = 0; component < n_components(); ++component)
+    for (std::size_t node = 0; node < n_nodes; ++node)
+      rate[node] += rates_[node][component] * deformation[component * n_nodes + node];
+  for (std::size_t node = 0; node < following_->coefficients.size(); ++node) {
+    const auto& of_others = following_->coefficients[node];
+    if (of_others.empty()) continue;
+    rate[node] = 0;
+    for (const auto& [other, weight] : of_others) rate[node] += weight * rate[other];
+  }
+  return rate;
 }
 
 template <int dim>
 std::vector<double> BoundaryMotion<dim>::speeds(std::span<const double> deformation) const {
-  const std::size_t n_nodes = rates_.size();
-  std::vector<double> rate(n_nodes), result;
-  for (int component = 0; component < n_components(); ++component)
-    for (std::size_t node = 0; node < n_nodes; ++node)
-      rate[node] += rates_[node][component] * deformation[component * n_nodes + node];
+  const std::vector<double> rate = rates_at_nodes(deformation);
+  std::vector<double> result;
   result.reserve(boundary_->places.size());
   for (const Place& place : boundary_->places) {
     double sum = 0;
@@ -151,19 +255,24 @@ std::vector<double> BoundaryMotion<dim>::load(std::span<const double> density) c
       at_node[node] += weight * value;
     }
   }
-  return load_at_nodes(at_node);
+  return load_at_nodes(std::move(at_node));
 }
 
 template <int dim>
 std::vector<double> BoundaryMotion<dim>::load(std::span<const Dependence> function) const {
   std::vector<double> at_node(rates_.size());
   for (const auto& [node, weight] : function) at_node[node] -= weight;
-  return load_at_nodes(at_node);
+  return load_at_nodes(std::move(at_node));
 }
 
 /// The load of the sum over the nodes of a value times -dc/dt.
 template <int dim>
-std::vector<double> BoundaryMotion<dim>::load_at_nodes(std::span<const double> value) const {
+std::vector<double> BoundaryMotion<dim>::load_at_nodes(std::vector<double> value) const {
+  for (std::size_t node = 0; node < following_->coefficients.size(); ++node) {
+    const auto& of_others = following_->coefficients[node];
+    for (const auto& [other, weight] : of_others) value[other] += weight * value[node];
+    if (!of_others.empty()) value[node] = 0;
+  }
   const std::size_t n_nodes = rates_.size();
   std::vector<double> result(n_components() * n_nodes);
   for (int component = 0; component < n_components(); ++component)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wheelwright/shape/evolution/cubic_interpolant.h"
+#include "wheelwright/shape/evolution/moulded_shapes.h"
 #include "wheelwright/shape/evolution/spline_level_set.h"
 
 namespace wheelwright {
@@ -27,6 +28,11 @@ class BoundaryMotion {
 
   /// The motion with the coefficients at these nodes held fixed. One flag per node.
   BoundaryMotion holding(const std::vector<bool>& held) const;
+
+  /// The motion of these points of the boundary of the same shape if some values follow others
+  /// (MouldedShapes::follow()).
+  BoundaryMotion following(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points,
+                           Following following) const;
 
   /// The same motion at other points of the boundary of the same shape.
   BoundaryMotion on(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points) const;
@@ -61,16 +67,19 @@ class BoundaryMotion {
     std::vector<Place> places;
     std::vector<Dependence> dependences;
   };
-  static Boundary boundary_of(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points);
+  static Boundary boundary_of(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points,
+                              const Followers& following);
 
   LevelSet<dim> coefficients_;
   DeformationKind kind_;
   std::vector<Vec<dim>> gradients_;  ///< of the coefficients, in polar directions
   std::vector<bool> held_;
   std::vector<Vec<dim>> rates_;  ///< -dc/dt at the nodes per unit of each component of the deformation
+  std::shared_ptr<const Following> following_;
   std::shared_ptr<const Boundary> boundary_;
 
-  std::vector<double> load_at_nodes(std::span<const double> value) const;
+  std::vector<double> load_at_nodes(std::vector<double> value) const;
+  std::vector<double> rates_at_nodes(std::span<const double> deformation) const;
   int n_components() const { return kind_ == DeformationKind::vector_field ? dim : 1; }
 };
 

@@ -103,13 +103,22 @@ bool Evolver<dim>::hold_at_bands(const LevelSet<dim>& coefficients, std::span<co
 }
 
 template <int dim>
+bool Evolver<dim>::follow_in_mould(const LevelSet<dim>& coefficients, std::span<const double> velocity,
+                                   double distance, Following& following) const {
+  const double fastest = largest_magnitude(velocity);
+  if (!bands_.moulded() || !(fastest > 0)) return false;
+  const auto moved = smooth_transport<dim>(coefficients, velocity, distance / fastest);
+  return bands_.moulded()->follow(bands_.clip(coefficients), bands_.clip(moved), following);
+}
+
+template <int dim>
 LevelSet<dim> Evolver<dim>::design_of(const LevelSet<dim>& psi) const {
   return space_ == ShapeSpace::spline ? spline_coefficients(psi) : psi;
 }
 
 template <int dim>
 LevelSet<dim> Evolver<dim>::shape_of(LevelSet<dim> design) const {
-  return bands_.keep(space_ == ShapeSpace::spline ? spline_level_set(bands_.keep(std::move(design)))
+  return bands_.keep(space_ == ShapeSpace::spline ? spline_level_set(bands_.keep_design(std::move(design)))
                                                   : sub_cell_filter(design));
 }
 
@@ -126,7 +135,7 @@ Expected<LevelSet<dim>> Evolver<dim>::finished(LevelSet<dim> design,
 
 template <int dim>
 LevelSet<dim> Evolver<dim>::like(const LevelSet<dim>& other, LevelSet<dim> psi) const {
-  return bands_.keep(invariant_part(with_symmetries_of(other, std::move(psi)), invariance_));
+  return keep_bands(invariant_part(with_symmetries_of(other, std::move(psi)), invariance_));
 }
 
 template <int dim>
@@ -177,7 +186,7 @@ Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
 
 template <int dim>
 LevelSet<dim> Evolver<dim>::keep_bands(const LevelSet<dim>& psi) const {
-  return bands_.keep(psi);
+  return bands_.moulded() ? shape_of(design_of(psi)) : bands_.keep(psi);
 }
 
 template <int dim>

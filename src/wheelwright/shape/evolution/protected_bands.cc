@@ -7,6 +7,17 @@ namespace {
 /// How close to the edge of the range a boundary counts as lying on it, in units of the resolution.
 constexpr double near_edge = 0.1;
 
+/// How much farther the edges of bands extend at a place than at the side face at which they are thinnest.
+template <int dim>
+double draft_of_bands(const std::optional<Mould>& mould, const PolarGrid<dim>& grid, const Vec<dim>& polar) {
+  if constexpr (dim == 3)
+    if (mould) {
+      const double start = parting_plane_of(*mould, grid) * grid.axial_size();
+      return mould->slope * (std::max(start, grid.width - start) - std::abs(polar[2] - start));
+    }
+  return 0;
+}
+
 }  // namespace
 
 template <int dim>
@@ -15,38 +26,52 @@ ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, const Bands& ba
       range_(hole_range(grid_, bands)),
       between_(bands.between),
       nodes_(lattice.n_nodes()),
+      mould_(bands.mould),
       upper_bound_(lattice.n_nodes()) {
   const double rounding = 1e-9 * grid_.resolution();
   for (int node = 0; node < lattice.n_nodes(); ++node) {
-    const double radius = lattice.polar_point(node)[0];
+    const Vec<dim> place = lattice.polar_point(node);
+    const double radius = place[0];
     nodes_[node] = radius < grid_.inner_radius + bands.rim.thickness - rounding ||
                    radius > grid_.outer_radius - bands.tread.thickness + rounding ||
                    std::ranges::any_of(between_, [&](const SolidAnnulus& solid) {
                      return radius > solid.inner - rounding && radius < solid.outer + rounding;
                    });
-    upper_bound_[node] = distance(radius);
+    upper_bound_[node] = distance(place);
   }
+  if (mould_) moulded_ = std::make_shared<const MouldedShapes<dim>>(lattice, *mould_, upper_bound_);
 }
 
 /// Radial distance to the nearest edge of where holes may lie; negative outside of it.
 template <int dim>
-double ProtectedBands<dim>::distance(double radius) const {
+double ProtectedBands<dim>::distance(const Vec<dim>& polar) const {
+  const double radius = polar[0];
   double result = std::min(radius - range_.inner, range_.outer - radius);
   // As at the edges of the range: rounding would decide on which side of a grid line a boundary lies.
   const double apart = 0.001 * grid_.resolution();
   for (const SolidAnnulus& solid : between_)
     result = std::min(result, std::max(solid.inner - apart - radius, radius - solid.outer - apart));
-  return result;
+  return result - draft_of_bands<dim>(mould_, grid_, polar);
 }
 
 template <int dim>
 bool ProtectedBands<dim>::touches(const SurfacePoint<dim>& point) const {
-  return distance(grid_.radius(grid_.cell_position(point.cell)[0] + point.xi[0])) <
+  return distance(grid_.polar_point(grid_.cell_position(point.cell), point.xi)) <
          near_edge * grid_.resolution();
 }
 
 template <int dim>
 LevelSet<dim> ProtectedBands<dim>::keep(LevelSet<dim> psi) const {
+  return moulded_ ? moulded_->keep(std::move(psi)) : clip(std::move(psi));
+}
+
+template <int dim>
+LevelSet<dim> ProtectedBands<dim>::keep_design(LevelSet<dim> coefficients) const {
+  return moulded_ ? moulded_->keep_coefficients(std::move(coefficients)) : clip(std::move(coefficients));
+}
+
+template <int dim>
+LevelSet<dim> ProtectedBands<dim>::clip(LevelSet<dim> psi) const {
   for (std::size_t node = 0; node < psi.values.size(); ++node)
     psi.values[node] = std::min(psi.values[node], upper_bound_[node]);
   return psi;

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "wheelwright/shape/evolution/moulded_shapes.h"
 #include "wheelwright/shape/geometry/bands.h"
 #include "wheelwright/shape/geometry/topology.h"
 
 namespace wheelwright {
 
-/// The bands along the rim and the tread, and the annuli between them, that stay material.
+/// The bands along the rim and the tread, and the annuli between them, that stay material, and the mould from
+/// which all material must come out.
 template <int dim>
 class ProtectedBands {
  public:
@@ -18,26 +21,36 @@ class ProtectedBands {
 
   /// Clips holes at the edges of hole_range(): returns the minimum of psi and of the distance to the nearest
   /// edge. A signed distance whose holes lie within the range is not changed.
+  LevelSet<dim> clip(LevelSet<dim> psi) const;
+
+  /// The same for shapes that come out of the mould, if there is one, and for the coefficients of their
+  /// splines (MouldedShapes).
   LevelSet<dim> keep(LevelSet<dim> psi) const;
+  LevelSet<dim> keep_design(LevelSet<dim> coefficients) const;
+
+  /// Null if there is no mould.
+  const MouldedShapes<dim>* moulded() const { return moulded_.get(); }
 
   /// One event for each hole of `after` that reaches a band, up to about one sample spacing, if no
   /// overlapping hole of `before` did. The place of the event is at the band.
   std::vector<ShapeEvent<dim>> contacts(const Components<dim>& before, const Components<dim>& after) const;
 
-  /// Whether keep() would clip the value of a node, or its value is within `margin` [m] of that.
+  /// Whether clip() would change the value of a node, or its value is within `margin` [m] of that.
   bool is_clipped(int node, double value, double margin) const { return value > upper_bound_[node] - margin; }
 
-  /// Whether a boundary point lies where keep() stops the boundary, up to a tenth of the resolution.
+  /// Whether a boundary point lies where clip() stops the boundary, up to a tenth of the resolution.
   bool touches(const SurfacePoint<dim>& point) const;
 
  private:
-  double distance(double radius) const;
+  double distance(const Vec<dim>& polar) const;
 
   PolarGrid<dim> grid_;
   HoleRange range_;
   std::vector<SolidAnnulus> between_;
   std::vector<bool> nodes_;
+  std::optional<Mould> mould_;
   std::vector<double> upper_bound_;
+  std::shared_ptr<const MouldedShapes<dim>> moulded_;
 };
 
 }  // namespace wheelwright

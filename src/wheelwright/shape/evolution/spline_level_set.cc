@@ -322,29 +322,70 @@ std::array<SplineWeights, 4> spline_derivative_weights(const PolarGrid<dim>& gri
   return result;
 }
 
+namespace {
+
+/// The coefficients along one axis on which something depends.
+struct AxisDependence {
+  SplineSupport support;
+  SplineWeights weights;
+};
+
 template <int dim>
-void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell, const Vec<dim>& xi,
-                     double factor, std::vector<Dependence>& to) {
-  std::array<SplineSupport, dim> support;
-  std::array<SplineWeights, dim> weights;
+void add_products(const Lattice<dim>& lattice, const std::array<AxisDependence, dim>& along, double factor,
+                  std::vector<Dependence>& to) {
   int total = 1;
-  for (int d = 0; d < dim; ++d) {
-    support[d] = spline_support(lattice.grid(), d, cell[d]);
-    weights[d] = spline_weights(lattice.grid(), lattice.degree(), d, cell[d], xi[d]);
-    total *= support[d].count;
-  }
+  for (const AxisDependence& axis : along) total *= axis.support.count;
   for (int k = 0; k < total; ++k) {
     std::array<int, dim> vertex;
     double weight = factor;
     int rest = k;
     for (int d = 0; d < dim; ++d) {
-      const int i = rest % support[d].count;
-      rest /= support[d].count;
-      weight *= weights[d][i];
-      vertex[d] = lattice.degree() * (support[d].first + i);
+      const int i = rest % along[d].support.count;
+      rest /= along[d].support.count;
+      weight *= along[d].weights[i];
+      vertex[d] = lattice.degree() * (along[d].support.first + i);
     }
     if (weight != 0) to.push_back({lattice.node_index(vertex), weight});
   }
+}
+
+/// The weights of the control point at a node of a cell, along one axis.
+template <int dim>
+SplineWeights control_point_weights(const PolarGrid<dim>& grid, int degree, int axis, int cell, double xi) {
+  auto weights = spline_weights(grid, degree, axis, cell, xi);
+  if (xi != 0.5) return weights;
+  const auto first = spline_weights(grid, degree, axis, cell, 0.0),
+             last = spline_weights(grid, degree, axis, cell, 1.0);
+  for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = 2 * weights[k] - 0.5 * (first[k] + last[k]);
+  return weights;
+}
+
+}  // namespace
+
+template <int dim>
+void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell, const Vec<dim>& xi,
+                     double factor, std::vector<Dependence>& to) {
+  std::array<AxisDependence, dim> along;
+  for (int d = 0; d < dim; ++d)
+    along[d] = {spline_support(lattice.grid(), d, cell[d]),
+                spline_weights(lattice.grid(), lattice.degree(), d, cell[d], xi[d])};
+  add_products<dim>(lattice, along, factor, to);
+}
+
+template <int dim>
+std::vector<Dependence> control_point_dependence(const Lattice<dim>& lattice, int node) {
+  const int degree = lattice.degree();
+  const auto place = lattice.node_position(node);
+  std::array<AxisDependence, dim> along;
+  for (int d = 0; d < dim; ++d) {
+    const int cell = std::min(place[d] / degree, lattice.grid().cells[d] - 1);
+    along[d] = {spline_support(lattice.grid(), d, cell),
+                control_point_weights(lattice.grid(), degree, d, cell,
+                                      static_cast<double>(place[d] - degree * cell) / degree)};
+  }
+  std::vector<Dependence> result;
+  add_products<dim>(lattice, along, 1, result);
+  return result;
 }
 
 template decltype(spline_support<2>) spline_support<2>;
@@ -356,6 +397,8 @@ template decltype(spline_derivative_weights<3>) spline_derivative_weights<3>;
 template decltype(spline_coefficients<2>) spline_coefficients<2>;
 template decltype(spline_level_set<2>) spline_level_set<2>;
 template decltype(add_dependences<2>) add_dependences<2>;
+template decltype(control_point_dependence<2>) control_point_dependence<2>;
+template decltype(control_point_dependence<3>) control_point_dependence<3>;
 template decltype(spline_coefficients<3>) spline_coefficients<3>;
 template decltype(spline_level_set<3>) spline_level_set<3>;
 template decltype(add_dependences<3>) add_dependences<3>;

@@ -62,4 +62,9 @@ template <int dim>
 void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell, const Vec<dim>& xi,
                      double factor, std::vector<Dependence>& to);
 
+/// The dependence of a control point (shape/geometry/control_points.h), at a node, of the level set on these
+/// coefficients.
+template <int dim>
+std::vector<Dependence> control_point_dependence(const Lattice<dim>& lattice, int node);
+
 }  // namespace wheelwright

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
+#include "wheelwright/shape/geometry/mould.h"
 #include "wheelwright/shape/geometry/polar_grid.h"
 
 namespace wheelwright {
@@ -18,10 +20,12 @@ struct SolidAnnulus {
   double inner, outer;
 };
 
-/// What stays material.
+/// What stays material, and the mould from which the wheel must come out. The edges of bands have its draft:
+/// bands have their thickness where they are thinnest, at the side face far from the parting plane.
 struct Bands {
   Band rim, tread;
   std::vector<SolidAnnulus> between = {};
+  std::optional<Mould> mould = {};  ///< in 3D
 };
 
 /// Radii between which holes may lie [m].
