@@ -89,6 +89,22 @@ TEST(LargeDeformation, IsThatOfAnIndependentWheel) {
   }
 }
 
+/// The paper's wheel in the same discrete form by GetFEM 5.4.2: bench/getfem/soft_wheel.py --moduli 32e6.
+TEST(LargeDeformation, PaperWheelAgreesWithGetFem) {
+  auto model = soft_wheel(32e6);
+  model.ghost = {GhostPenaltyKind::paper, 1e-3};
+  model.dilatation = DilatationKind::pointwise;
+  const auto problem = LargeDeformationProblem<2>::create(model);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const auto state = testing::all_states(*problem, testing::paper_holes(model.grid));
+  ASSERT_TRUE(state) << state.failure().detail;
+  const double energies[] = {27.1898549, 41.9155376}, travels[] = {2.3275745e-3, 3.6789155e-3};
+  for (int position = 0; position < 2; ++position) {
+    EXPECT_NEAR((*state)->strain_energy()[position] / energies[position], 1, 1e-5);
+    EXPECT_NEAR((*state)->contacts()[position].travel() / travels[position], 1, 1e-5);
+  }
+}
+
 /// The force is the derivative of all energies with respect to the travel: of the material, of the ghost
 /// penalty and of the contact's.
 TEST(LargeDeformation, TheForceIsTheDerivativeOfTheEnergies) {
