@@ -211,6 +211,20 @@ TEST_F(EditTest, ShapeOfAnotherRunIsExact) {
   EXPECT_EQ(seen.shapes[2].values, seen.shapes[0].values);
 }
 
+TEST_F(EditTest, TheSameShapeAgainIsNothingToUndo) {
+  const Paint hole{.as = Fill::hole, .path = {polar(0.262, 0.95)}, .radius = 0.015};
+  const Seen other = after({hole});
+  ASSERT_EQ(other.shapes.size(), 2U);
+  const fs::path file = folder() / "shape";
+  write_atomically(file, level_set_file(other.shapes[1]));
+  fs::remove_all(folder() / "run");
+  const Seen seen = after({Reset{}, TakeShape{file.string()}, TakeShape{file.string()}, Undo{}, Undo{}});
+  EXPECT_EQ(seen.refused.size(), 1U);  // the second Undo
+  ASSERT_EQ(seen.shapes.size(), 5U);
+  EXPECT_EQ(seen.shapes[3].values, other.shapes[1].values);
+  EXPECT_EQ(seen.shapes[4].values, seen.shapes[0].values);
+}
+
 TEST_F(EditTest, InvalidWidthsAndBoundsAreRefused) {
   const Seen seen = after({NewWidths{.minimum_wall = 0.004, .minimum_gap = 0.003},
                            NewWidths{.minimum_wall = 10}, NewWidths{.minimum_gap = -1},

@@ -50,7 +50,8 @@ class RunControl {
   /// Returns to the initial shape, under the current case.
   virtual std::optional<Refusal> reset() = 0;
   /// Returns to the case and shape before the last change_case(), draw(), take_shape() or reset() that is not
-  /// undone. Returns the description of that change.
+  /// undone. A shape that was replaced by the same shape is not a change. Returns the description of the
+  /// change.
   virtual Expected<std::string, Refusal> undo() = 0;
 };
 

@@ -136,13 +136,13 @@ Expected<std::string, Refusal> SessionControl<dim>::undo() {
   return past.change;
 }
 
-/// A change of the shape that can be undone.
+/// A change of the shape that can be undone. The same shape again, as after a double click, is none.
 template <int dim>
 std::optional<Refusal> SessionControl<dim>::change_shape(const LevelSet<dim>& shape,
                                                          const std::string& what) {
   Past<dim> past = session_.present(what);
   if (auto refusal = continue_at(shape, what)) return refusal;
-  session_.remember(std::move(past));
+  if (shape.values != past.shape.values) session_.remember(std::move(past));
   return {};
 }
 
