@@ -17,8 +17,8 @@ namespace {
 constexpr int map_degree = 2;
 
 template <int dim>
-CutDomain<dim> cells_of(const LevelSet<dim>& psi) {
-  auto domain = cut_domain(psi, 8);
+CutDomain<dim> cells_of(const LevelSet<dim>& psi, int points) {
+  auto domain = cut_domain(psi, points);
   if (!domain) throw std::runtime_error(domain.failure().detail);
   return *std::move(domain);
 }
@@ -48,9 +48,9 @@ Vec<dim> place_of(const PolarGrid<dim>& grid, int cell, const Vec<dim>& xi) {
 
 /// g = |x|^2, the same in every sector.
 template <int dim>
-double integral(const LevelSet<dim>& psi) {
+double integral(const LevelSet<dim>& psi, int cut_points) {
   double sum = 0;
-  for (const auto& point : boundary_of(cells_of(psi))) {
+  for (const auto& point : boundary_of(cells_of(psi, cut_points))) {
     const Vec<dim> x = place_of<dim>(psi.lattice.grid(), point.cell, point.xi);
     sum += point.weight * dot<dim>(x, x);
   }
@@ -64,9 +64,9 @@ struct DerivativeErrors {
 };
 
 template <int dim>
-DerivativeErrors errors(const LevelSet<dim>& psi, std::span<const double> direction) {
+DerivativeErrors errors(const LevelSet<dim>& psi, std::span<const double> direction, int cut_points) {
   const PolarGrid<dim>& grid = psi.lattice.grid();
-  const auto domain = cells_of(psi);
+  const auto domain = cells_of(psi, cut_points);
   const auto points = boundary_of(domain);
   const auto kinks = kink_densities<dim>(psi, domain, map_degree, points, [&](int cell, const Vec<dim>& xi) {
     const Vec<dim> x = place_of<dim>(grid, cell, xi);
@@ -84,7 +84,7 @@ DerivativeErrors errors(const LevelSet<dim>& psi, std::span<const double> direct
   const auto moved = [&](double t) {
     LevelSet<dim> result = psi;
     for (std::size_t i = 0; i < direction.size(); ++i) result.values[i] += t * direction[i];
-    return integral(result);
+    return integral(result, cut_points);
   };
   constexpr double step = 1e-6;
   const double difference =
@@ -99,33 +99,54 @@ TEST(BoundaryKinks, MakeDerivativesExactInThePlane) {
   for (const int degree : {1, 2}) {
     const PolarGrid<2> grid = testing::paper_model(14, 192).grid;
     const auto psi = testing::holes(grid, degree, {{0.2681, 0.47 * grid.sector_angle(), 0.0373}});
-    const auto [with_kinks, without] = errors<2>(psi, testing::smooth_direction(psi.lattice));
+    const auto [with_kinks, without] = errors<2>(psi, testing::smooth_direction(psi.lattice), 8);
     EXPECT_LT(with_kinks, 1e-6);
     EXPECT_GT(without, 1e-4);
   }
 }
 
-// Of a hole that ends at the side faces at an angle, whose level set has all its curvature in the kinks; and
-// of a ball that ends inside.
+struct SolidShape {
+  LevelSet<3> psi;
+  std::vector<double> direction;
+};
+
+/// A hole that ends at the side faces at an angle, or a ball that ends inside.
+SolidShape solid_shape(int degree, bool is_ball) {
+  const PolarGrid<3> grid{0.20, 0.34, 0.12, 16, {7, 6, 3}};
+  SolidShape result{{Lattice<3>(grid, degree), {}}, {}};
+  for (int i = 0; i < result.psi.lattice.n_nodes(); ++i) {
+    const Vec<3> p = result.psi.lattice.polar_point(i), x = cartesian<3>(p),
+                 c = cartesian<3>({0.2681, 0.47 * grid.sector_angle(), 0.0563});
+    const Vec<3> d = x - c;
+    result.psi.values.push_back(is_ball ? 0.0373 - norm<3>(d)
+                                        : 0.0273 + 0.1 * p[2] - std::hypot(d[0], d[1]) +
+                                              0.002 * std::cos(20 * p[2]));
+    result.direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(15 * p[2]));
+  }
+  return result;
+}
+
+// The level set of the hole has all its curvature in the kinks.
 TEST(BoundaryKinks, MakeDerivativesExactIn3D) {
   for (const int degree : {1, 2})
     for (const bool is_ball : {false, true}) {
-      const PolarGrid<3> grid{0.20, 0.34, 0.12, 16, {7, 6, 3}};
-      LevelSet<3> psi{Lattice<3>(grid, degree), {}};
-      std::vector<double> direction;
-      for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
-        const Vec<3> p = psi.lattice.polar_point(i), x = cartesian<3>(p),
-                     c = cartesian<3>({0.2681, 0.47 * grid.sector_angle(), 0.0563});
-        const Vec<3> d = x - c;
-        psi.values.push_back(is_ball ? 0.0373 - norm<3>(d)
-                                     : 0.0273 + 0.1 * p[2] - std::hypot(d[0], d[1]) +
-                                           0.002 * std::cos(20 * p[2]));
-        direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(15 * p[2]));
-      }
-      const auto [with_kinks, without] = errors<3>(psi, direction);
+      const auto [psi, direction] = solid_shape(degree, is_ball);
+      const auto [with_kinks, without] = errors<3>(psi, direction, 8);
       EXPECT_LT(with_kinks, 1e-5) << degree << is_ball;
       EXPECT_GT(without, 1e-3) << degree << is_ball;
     }
+}
+
+TEST(BoundaryKinks, NeedAsManyPointsAsPolynomials) {
+  EXPECT_EQ(points_for_kinks<2>(1), 3);
+  EXPECT_EQ(points_for_kinks<2>(2), 8);
+  EXPECT_EQ(points_for_kinks<3>(1), 3);
+  ASSERT_EQ(points_for_kinks<3>(2), 6);
+  for (const bool is_ball : {false, true}) {
+    const auto [psi, direction] = solid_shape(2, is_ball);
+    const double with_four = errors<3>(psi, direction, 4).with_kinks;
+    EXPECT_LT(errors<3>(psi, direction, 6).with_kinks, 0.02 * with_four) << is_ball;
+  }
 }
 
 }  // namespace

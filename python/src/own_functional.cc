@@ -263,7 +263,8 @@ QuantityRow own_quantity(py::object functional) {
                   .meaning = functional.attr("meaning").cast<std::string>(),
                   .of = kind == "edges"                                   ? Positions::none
                         : functional.attr("_over_positions").cast<bool>() ? Positions::all
-                                                                          : Positions::each};
+                                                                          : Positions::each,
+                  .has_kinks = kind == "edges"};
   const auto object = std::make_shared<const OwnedObject>(std::move(functional));
   if (kind == "edges")
     row.functional = factory<OfEdges>(object, description);

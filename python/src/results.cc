@@ -71,21 +71,35 @@ std::string written(const ExportFormat& format, const SurfaceModel& model) {
   return without_gil([&] { return format.of_surface(model); });
 }
 
+/// The wheel, or one of its layers as a wheel of its own.
+template <class Model>
+Model part_of(const Model& wheel, const std::optional<std::string>& layer) {
+  if (!layer) return wheel;
+  std::string known;
+  for (const auto& one : wheel.layers) {
+    if (one.name == *layer) return layer_model(wheel, one);
+    known += (known.empty() ? "" : ", ") + one.name;
+  }
+  throw py::value_error("the wheel has no layer " + *layer +
+                        (known.empty() ? "; it is of one material" : "; it has " + known));
+}
+
 template <int dim>
 constexpr double usual_tolerance = dim == 2 ? 1e-5 : 1e-4;  // [m], as the program's
 
-/// The file of a shape in a format. A wheel that is the same all along the axle has that of a plane wheel.
+/// The file of a shape, or of one layer, in a format. A wheel that is the same all along the axle has that of
+/// a plane wheel.
 template <int dim>
 py::bytes file(const LevelSet<dim>& psi, const HeldCase& held, const std::string& format,
-               std::optional<double> tolerance) {
+               std::optional<double> tolerance, const std::optional<std::string>& layer) {
   const ExportFormat& named = format_of(format);
   if constexpr (dim == 3)
     if (named.of_plane && is_invariant(psi, Invariance::along_axle))
-      return file<2>(mid_plane_section(psi), held, format, tolerance);
+      return file<2>(mid_plane_section(psi), held, format, tolerance, layer);
   const auto wheel = without_gil([&] {
     return fitted_wheel(held.value, psi, held.value.title, tolerance.value_or(usual_tolerance<dim>));
   });
-  if (wheel) return written(named, wheel->model);
+  if (wheel) return written(named, part_of(wheel->model, layer));
   std::string text;
   for (const cad::OutlineFault& fault : wheel.failure()) text += (text.empty() ? "" : "; ") + fault.what;
   raise("Error", text);

@@ -5,10 +5,12 @@
 #include "held_evaluation.h"
 #include "module.h"
 #include "views.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/mechanics/state/place_in_body.h"
 #include "wheelwright/optimization/sensitivity/taylor_test.h"
 #include "wheelwright/run/checkpoints/checkpoint.h"
+#include "wheelwright/run/results/refined_numbers.h"
 #include "wheelwright/run/study/gradient_check.h"
 
 namespace wheelwright::python {
@@ -79,6 +81,26 @@ py::list gradient_checks(const Study<dim>& study, const LevelSet<dim>& psi) {
     result.append(py::make_tuple(check.function, check.passed(), check.is_smoothed, check.lowest_order(),
                                  check.largest_error(), as_tuple(check.test)));
   return result;
+}
+
+/// (key, label, value, error or None, reason) of every number, with the levels of the tread that results
+/// have.
+template <int dim>
+py::list accurate_numbers(const Study<dim>& study, const LevelSet<dim>& psi, double accuracy) {
+  if (!(accuracy > 0)) throw py::value_error("the accuracy must be positive");
+  const auto result = computed([&](const Interrupt& interrupt) -> Expected<AccurateNumbers> {
+    const Case c = with_levels_of_results(study.computed());
+    const auto solver = make_solver(rolling_model<dim>(c));
+    if (!solver) return solver.failure();
+    const auto states = (*solver)->states(psi, (*solver)->all_positions(), interrupt);
+    if (!states) return states.failure();
+    return refined_numbers(c, **solver, psi, SolvedStates<dim>(*states),
+                           solved_finer_shape(c, **solver, psi, interrupt), accuracy, interrupt);
+  });
+  py::list numbers;
+  for (const AccurateNumber& one : result.numbers)
+    numbers.append(py::make_tuple(one.key, one.label, one.value, one.error, one.reason));
+  return numbers;
 }
 
 template <int dim>
@@ -210,6 +232,7 @@ void bind_study(py::module_& m) {
       .def("evaluate", &evaluation_at<dim>)
       .def("solve", &states_at<dim>)
       .def("taylor_tests", &taylor_tests_at<dim>)
+      .def("accurate_numbers", &accurate_numbers<dim>)
       .def("check_gradients", &gradient_checks<dim>);
 }
 

@@ -27,7 +27,6 @@ from wheels import (
 SOLID = {
     "wheel.dimension": 3,
     "grid.axial_cells": 4,
-    "grid.level_set_degree": 1,
     "contact.friction": 0.3,
 }
 TWO_LOADS = {

@@ -6,6 +6,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
+
 import wheelwright as ww
 from wheels import small
 
@@ -203,6 +205,22 @@ class Exports(Folder):
         study = ww.Study(ww.Case.preset("caster-tyre"))
         study.export(self.folder / "wheel.dxf")
         self.assertIn("tyre", (self.folder / "wheel.dxf").read_text())
+
+    def test_of_one_layer_hold_it_alone(self):
+        """Its triangles lie in the tyre, those of the wheel do not."""
+        study = ww.Study(ww.Case.preset("caster-tyre"))
+        inner_radii = []
+        for layer in (None, "tyre"):
+            file = self.folder / "wheel.stl"
+            study.export(file, layer=layer)
+            triangles = np.frombuffer(file.read_bytes()[84:], dtype=[("v", "<f4", (4, 3)), ("a", "<u2")])["v"]
+            inner_radii.append(1e-3 * np.hypot(triangles[:, 1:, 0], triangles[:, 1:, 1]).min())
+        self.assertAlmostEqual(inner_radii[0], float(study.case["wheel.inner_radius"]), places=4)
+        self.assertAlmostEqual(inner_radii[1], float(study.case["material.layer[1].inner_radius"]), places=4)
+        with self.assertRaisesRegex(ValueError, "no layer band; it has material, tyre"):
+            study.export(self.folder / "wheel.stl", layer="band")
+        with self.assertRaisesRegex(ValueError, "of one material"):
+            ww.Study(small()).export(self.folder / "wheel.stl", layer="tyre")
 
 
 if __name__ == "__main__":

@@ -156,6 +156,21 @@ class States(unittest.TestCase):
         self.assertGreater(analysis.run_out, 0)
 
 
+class AccurateNumbers(unittest.TestCase):
+    def test_are_those_of_finer_grids_within_their_errors(self):
+        study = ww.Study(small())
+        rough, fine = study.accurate_numbers(0.5), study.accurate_numbers(0.01)
+        self.assertEqual(rough.keys(), fine.keys())
+        for key, number in fine.items():
+            if number.error is not None and not number.reason:
+                self.assertLessEqual(number.error, 0.01 * abs(number.value), number)
+                if rough[key].error:
+                    self.assertLess(abs(rough[key].value - number.value), 5 * rough[key].error, number)
+        self.assertTrue(any(not number.reason for number in fine.values()))
+        with self.assertRaisesRegex(ValueError, "accuracy"):
+            study.accurate_numbers(0)
+
+
 class Failures(unittest.TestCase):
     def test_have_reason_and_detail(self):
         study = ww.Study(small())

@@ -44,12 +44,13 @@ from .run import Finding, Run, RunResult
 from .settings import Settings, limit_threads, settings
 from .shape import Shape
 from .state import Cell, Contact, Material, ObservationRows, RimForce, RimMotion, State
-from .study import Evaluation, FunctionValue, Gradient, GradientCheck, Study, TaylorTest
+from .study import AccurateNumber, Evaluation, FunctionValue, Gradient, GradientCheck, Study, TaylorTest
 
 _core.keep_freed_memory()
 __version__ = _core.version()
 
 __all__ = [
+    "AccurateNumber",
     "ByPosition",
     "Case",
     "CaseError",

@@ -60,7 +60,13 @@ def analyze(state: State) -> RollingAnalysis:
     return RollingAnalysis(**values)
 
 
-def export(case: Case, shape: Shape, file: str | PathLike[str], tolerance: float | None = None) -> None:
+def export(
+    case: Case,
+    shape: Shape,
+    file: str | PathLike[str],
+    tolerance: float | None = None,
+    layer: str | None = None,
+) -> None:
     """Writes a shape for CAD and the workshop, in millimetres, in the format of the file's ending.
 
     dxf, svg, stl, 3mf, step, vtu or png; for a wheel whose shape changes along the axle those that hold surfaces.
@@ -69,9 +75,10 @@ def export(case: Case, shape: Shape, file: str | PathLike[str], tolerance: float
     Args:
         tolerance: the distance of the curves, in 3D of the triangles, from the shape's edges [m]; by default
             0.01 mm, in 3D 0.1 mm.
+        layer: the name of the layer to write alone; by default the whole wheel.
     """
     path = Path(file)
-    content = of(case.dimension).file(shape._core, case._core, path.suffix.lstrip("."), tolerance)
+    content = of(case.dimension).file(shape._core, case._core, path.suffix.lstrip("."), tolerance, layer)
     path.write_bytes(content)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from os import PathLike
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 import numpy as np
 
@@ -188,6 +188,18 @@ class GradientCheck(NamedTuple):
     test: TaylorTest
 
 
+class AccurateNumber(NamedTuple):
+    """A number of a wheel with the estimate of its discretization error."""
+
+    label: str
+    value: float
+    """In SI units, on the whole width, in 2D too."""
+    error: Optional[float]
+    """None: it is not known."""
+    reason: str
+    """Why it is not as accurate as wanted; empty if it is."""
+
+
 class Study:
     """A case with its solver. What is independent of the shape is built once, which takes most of its time.
 
@@ -282,11 +294,26 @@ class Study:
         checks = self._core.check_gradients(self._shape(shape))
         return [GradientCheck(*check[:-1], TaylorTest(*check[-1])) for check in checks]
 
-    def export(self, file: str | PathLike[str], shape: Shape | None = None, tolerance: float | None = None) -> None:
+    def accurate_numbers(self, accuracy: float = 0.01, shape: Shape | None = None) -> dict[str, AccurateNumber]:
+        """The numbers of a shape as ``wheelwright analyze --accuracy`` gives them, by their keys.
+
+        Solved on finer and finer grids until the estimated error of each is at most ``accuracy`` times its
+        size, or until the next grid costs too much; ``reason`` then says so.
+        """
+        numbers = self._core.accurate_numbers(self._shape(shape), accuracy)
+        return {number[0]: AccurateNumber(*number[1:]) for number in numbers}
+
+    def export(
+        self,
+        file: str | PathLike[str],
+        shape: Shape | None = None,
+        tolerance: float | None = None,
+        layer: str | None = None,
+    ) -> None:
         """Writes a shape for CAD and the workshop; see :func:`wheelwright.export`."""
         from .results import export
 
-        export(self._case, Shape._of(self._shape(shape)), file, tolerance)
+        export(self._case, Shape._of(self._shape(shape)), file, tolerance, layer)
 
     def _shape(self, shape: Shape | None) -> _core.LevelSet:
         if shape is None:

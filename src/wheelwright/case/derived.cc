@@ -260,6 +260,8 @@ bool optimizes_stresses(const Case& c) { return optimizes_any(c, &QuantityRow::i
 
 bool optimizes_temperatures(const Case& c) { return optimizes_any(c, &QuantityRow::depends_on_heat); }
 
+bool optimizes_edges(const Case& c) { return optimizes_any(c, &QuantityRow::has_kinks); }
+
 bool wants_annulus(const Case& c) {
   return c.objective.annulus_matches_dual.has_value() || optimizes_any(c, &QuantityRow::observes_annulus);
 }

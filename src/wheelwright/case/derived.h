@@ -112,6 +112,9 @@ int total_load_positions(const Case& c);
 /// Number of radial cells of the annulus of J_p1, condensed once per run; 1 without that functional.
 int tread_rows(const Case& c);
 
+/// Whether the gradient of a minimized or bounded function has the kinks of the moving boundary.
+bool optimizes_edges(const Case& c);
+
 /// Whether the tractions in the annulus of J_p1 are observed.
 bool wants_annulus(const Case& c);
 

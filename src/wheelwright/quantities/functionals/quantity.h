@@ -153,6 +153,7 @@ struct QuantityRow {
   bool compares_with_mean = false;      ///< with the mean contact stress: a uniformity
   bool observes_annulus = false;        ///< the tractions in the annulus at the tread
   bool integrates_stresses = false;     ///< over the material
+  bool has_kinks = false;               ///< its gradient contains those of the moving boundary
   bool depends_on_heat = false;         ///< it is a temperature
   bool is_amount_of_material = false;   ///< so that a run that optimizes it does not hold the volume
   bool is_maximum = false;        ///< over points or positions: it has the gradient of a smooth approximation

@@ -18,6 +18,7 @@
 #include "wheelwright/quantities/functionals/mean_contact_stress.h"
 #include "wheelwright/run/study/bounded_functions.h"
 #include "wheelwright/run/study/moved_studies.h"
+#include "wheelwright/shape/cut/boundary_kinks.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/evolution/regrid.h"
 #include "wheelwright/shape/evolution/volume.h"
@@ -75,6 +76,8 @@ RollingModel<dim> rolling_model(const Case& c) {
                    .friction = c.contact.friction,
                    .counterpart = c.contact.with};
   model.contact_points = c.contact.quadrature_points;
+  if (optimizes_edges(c))
+    model.cut_points = std::max(model.points_in_cut_cells(), points_for_kinks<dim>(level_set_degree(c)));
   model.tread = {tread_rows(c), tread_levels(c), wants_annulus(c) ? c.grid.degree + 1 : 0};
   model.camber = c.load.camber;
   const std::vector<Case> single = single_load_cases(c);

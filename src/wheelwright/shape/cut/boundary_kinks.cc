@@ -246,7 +246,17 @@ std::vector<double> kink_densities(const LevelSet<dim>& psi, const CutDomain<dim
   return Kinks<dim>(psi, map_degree, points, value).densities(domain);
 }
 
+template <int dim>
+int points_for_kinks(int degree) {
+  const int different = nodes_per_cell<dim>(degree) - 1;  // psi itself is zero
+  int n = 1;
+  while (std::pow(n, dim - 1) < different) ++n;
+  return n;
+}
+
 template decltype(kink_densities<2>) kink_densities<2>;
 template decltype(kink_densities<3>) kink_densities<3>;
+template int points_for_kinks<2>(int);
+template int points_for_kinks<3>(int);
 
 }  // namespace wheelwright

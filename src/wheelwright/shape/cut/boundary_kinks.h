@@ -23,4 +23,9 @@ std::vector<double> kink_densities(const LevelSet<dim>& psi, const CutDomain<dim
                                    std::span<const SurfacePoint<dim>> points,
                                    const std::function<double(int cell, const Vec<dim>& xi)>& value);
 
+/// Gauss points per direction in cut cells with which the boundary in a cell has as many points as there are
+/// different polynomials of a degree on it. With fewer, kink_densities() cannot have the sums of all of them.
+template <int dim>
+int points_for_kinks(int degree);
+
 }  // namespace wheelwright
