@@ -546,7 +546,8 @@ TEST_F(CommandLine, TheEstimateOfTheMemoryIsRightToAQuarter) {
 TEST_F(CommandLine, TheEstimateOfTheMemoryOfLargeDeformationIsRightToAQuarter) {
   const std::string wheel =
       "[material]\nyoungs_modulus = 8e6\nmodel = \"neo_hookean\"\n[load]\nforce = 1500\npositions = "
-      "2\n[optimizer]\nrim_band = 0.0101\ntread_band = 0.0201\n[output]\nerrors = \"none\"\n[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n";
+      "2\n[optimizer]\nrim_band = 0.0101\ntread_band = 0.0201\n[output]\nerrors = "
+      "\"none\"\n[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n";
   for (const char* grid : {"radial_cells = 14\nangular_cells = 192\n",
                            "radial_cells = 28\nangular_cells = 384\n"}) {  // each takes more
     std::ofstream(folder() / "case.toml") << wheel << "[grid]\n" << grid;

@@ -163,6 +163,12 @@ std::vector<Case> starting_points() {
     of_layer.objective = {.minimize = built_in("peak_von_mises")};
     cases.insert(cases.end(), {plain, frictionless, loads, bounded, minimizing, equal, kerb, orthotropic,
                                layered, of_layer, soft, soft_layer});
+    if (dimension == 3) {
+      Case moulded = plain;
+      moulded.optimizer.made = Manufacture::moulded;
+      moulded.optimizer.parting_plane = 0.5 * moulded.wheel.width;
+      cases.push_back(moulded);
+    }
   }
   return cases;
 }
