@@ -30,6 +30,20 @@ bool stands(const fs::path& path) {
   return type_of(path) != fs::file_type::not_found && type_of(path) != fs::file_type::none;
 }
 
+/// Makes a new file that has its content from its beginning on, even if the process is killed. False if it
+/// stands already, or cannot be made in this way on its file system.
+bool create_whole(const fs::path& path, std::string_view text) {
+  const int file = ::open(path.parent_path().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (file < 0) return false;
+  const bool is_written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+                          (::fsync(file) == 0 || errno == EINVAL);
+  const std::string unnamed = fmt::format("/proc/self/fd/{}", file);
+  const bool is_named =
+      is_written && ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  ::close(file);
+  return is_named;
+}
+
 /// Names of folders end in a slash in the list.
 std::string listed_as(std::string_view name, fs::file_type type) {
   return std::string(name) + (type == fs::file_type::directory ? "/" : "");
@@ -101,10 +115,11 @@ void WrittenFiles::list(const std::string& line) {
 /// First terminates a line that an interrupted write left incomplete: half a name lists nothing.
 void WrittenFiles::append(std::string_view line) const {
   const fs::path list = folder_ / list_of_written_files;
+  const std::string text = fmt::format("{}{}\n", ends_with_newline_ ? "" : "\n", line);
+  if (!exists_ && create_whole(list, text)) return;
   const int flags = O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC | (exists_ ? 0 : O_CREAT | O_EXCL);
   const int file = ::open(list.c_str(), flags, 0666);
   if (file < 0) throw OutputError(list, errno);
-  const std::string text = fmt::format("{}{}\n", ends_with_newline_ ? "" : "\n", line);
   const ssize_t written = ::write(file, text.data(), text.size());
   int error = written < 0 ? errno : written < static_cast<ssize_t>(text.size()) ? ENOSPC : 0;
   if (error == 0 && ::fsync(file) != 0 && errno != EINVAL) error = errno;
