@@ -1,8 +1,8 @@
 // A library to be preloaded into the program: lets one call that touches a checkpoint fail, or kills the
 // program inside it. WHEELWRIGHT_FAULT is "CALL:N:ACTION": in the Nth CALL (write, fsync or rename; from 1)
-// on a path with "/checkpoints", but not on the list of written files there, do ACTION: "kill", or the number
-// of an error. "new:N:throw" lets the Nth request for a large piece of memory fail, and all that come after
-// it.
+// on a path with "/checkpoints", but not on the list of written files there, which has no name (#NUMBER)
+// until it is whole, do ACTION: "kill", or the number of an error. "new:N:throw" lets the Nth request for a
+// large piece of memory fail, and all that come after it.
 
 #include <dlfcn.h>
 #include <signal.h>
@@ -40,7 +40,7 @@ bool is_now(const char* call, const std::string& path) {
   static int calls = 0;
   const auto has = [&](const char* part) { return path.find(part) != std::string::npos; };
   return fault().call == call && has("/checkpoints") && !has("written-by-wheelwright") &&
-         ++calls == fault().n;
+         !has("/checkpoints/#") && ++calls == fault().n;
 }
 
 constexpr std::size_t large_piece = 10000;
