@@ -75,7 +75,7 @@ def export(
     Args:
         tolerance: the distance of the curves, in 3D of the triangles, from the shape's edges [m]; by default
             0.01 mm, in 3D 0.1 mm.
-        layer: the name of the layer to write alone; by default the whole wheel.
+        layer: the name of the only layer to write; by default the whole wheel is written.
     """
     path = Path(file)
     content = of(case.dimension).file(shape._core, case._core, path.suffix.lstrip("."), tolerance, layer)

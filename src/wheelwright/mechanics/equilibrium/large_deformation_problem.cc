@@ -36,7 +36,7 @@ std::optional<Failure> unsupported_model(const RollingModel<dim>& model) {
   return unsupported_loads(model);
 }
 
-/// What grows along a curve of loads: the travel where it is given, or the load.
+/// The quantity that grows along a curve of loads: the travel where it is given, otherwise the load.
 template <int dim>
 double load_parameter(const RollingModel<dim>& model) {
   return model.travel.value_or(model.load);

@@ -89,8 +89,8 @@ class EquilibriumSolver {
                                                   const Interrupt& interrupt) const;
   /// The solution if it is stable, or the failure with its mode. `near`: a linearization next to it.
   Result checked(RingEquilibrium<dim> solution, const RingLinearization<dim>& near) const;
-  /// The failure, with its mode if it is known by `unstable` alone; or with the reason that the material
-  /// softens in compression at the last solution before it, if there is one.
+  /// Returns the failure with its mode if only `unstable` is known of it; or, if the material softens in
+  /// compression at the last solution before it, a failure that says so.
   EquilibriumFailure explained(EquilibriumFailure failure, GroundPosition ground,
                                const RingEquilibrium<dim>* last) const;
   /// From a solution under a part of the load by the rim's travel, to the load or to its maximum.

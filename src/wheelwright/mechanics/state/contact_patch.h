@@ -31,7 +31,7 @@ struct ContactPatch {
     /// The traction in the ground frame: component 0 along n_y, towards the ground.
     Vec<dim> ground_traction() const { return frame.template contact_to_ground<dim>(traction); }
 
-    // Of the loaded wheel:
+    // These belong to the loaded wheel.
     Vec<dim> place() const { return position + moved; }     ///< relative to the axle, as position
     double area() const { return weight * stretch; }        ///< as weight
     Vec<dim> stress() const { return traction / stretch; }  ///< as traction

@@ -14,10 +14,10 @@ struct StartDisplacement {
   RingField displacement;
 };
 
-/// Those of the positions of a shape under one load; none where no start is needed.
+/// The displacements of all positions of a shape under one load; empty where no start is needed.
 using StartDisplacements = std::vector<StartDisplacement>;
 
-/// The one of a position; null if there is none.
+/// Returns the displacement of a position; null if there is none.
 inline const StartDisplacement* start_of(const StartDisplacements& starts, const GroundPosition& ground) {
   for (const StartDisplacement& start : starts)
     if (start.ground == ground) return &start;

@@ -40,7 +40,7 @@ std::optional<VolumeChange> volume_change_of_saved_shape(const Case& c);
 /// One readable line.
 std::string text(const VolumeChange& change);
 
-/// What was done to an initial shape that cannot be made as the case asks (Optimizer::made); empty for
+/// Says how an initial shape that cannot be made as the case asks (Optimizer::made) was changed; empty for
 /// others.
 template <int dim>
 std::optional<std::string> fitting_of_initial_shape(const Case& c);

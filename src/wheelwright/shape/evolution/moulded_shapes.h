@@ -12,7 +12,7 @@ namespace wheelwright {
 /// empty one. Empty: none follows.
 using Followers = std::vector<std::vector<Dependence>>;
 
-/// What follows other values while a shape moves.
+/// The values that follow other values while a shape moves.
 struct Following {
   Followers coefficients;    ///< of the level set's spline
   Followers control_points;  ///< of the level set, between the vertices of the cells
@@ -54,7 +54,8 @@ class MouldedShapes {
     std::vector<Dependence> of;  ///< other values
   };
 
-  /// What limits a coefficient: those of the layer before it, or that on the other side of the first layer.
+  /// Says by which coefficients another one is limited: by those of the layer before it, or by that on the
+  /// other side of the first layer.
   enum class Limit { before, other_side };
 
   Bound bound(std::span<const double> values, const Place& place, Limit limit) const;
