@@ -366,6 +366,48 @@ TEST(SequentialQuadratic, KeepsABoundWithItsMultiplier) {
     }
 }
 
+// What a rejected trial found beyond the linearized bound is what the next move makes up for, by the same
+// step; if the objective is to blame, there is nothing to make up for.
+TEST(SequentialQuadratic, MakesUpForABoundThatCurves) {
+  EvolutionOptions splines = evolution;
+  splines.space = ShapeSpace::spline;
+  const Evolver<2> evolver(lattice, splines);
+  OptimizerOptions options;
+  options.method = Method::sequential_quadratic;
+  options.measure_control = MeasureControl::free;
+  const auto shape = displaced_hole();
+  const double measure = material_measure(shape);
+  const OptimizationState<2> state{.shape = shape,
+                                   .evaluation = *bowl_with_bounds({.lower = measure})(shape),
+                                   .measure = measure,
+                                   .target_measure = measure,
+                                   .iteration = 0,
+                                   .step = 0.2,
+                                   .since_redistance = 0,
+                                   .since_smoothing = 0,
+                                   .memory = {},
+                                   .history = {{1}}};
+  const SequentialQuadraticProposals<2> proposals(evolver, options, state);
+  const auto measure_after = [&](const Move<2>& move) {
+    return material_measure(*evolver.move(shape, move.velocity, move.distance * h));
+  };
+  const auto straight = *proposals.move(state.step);
+  for (const double missing : {1e-4, 1e-3}) {
+    Evaluation<2> found = state.evaluation;  // as predicted, but for a measure that is too small
+    found.functions[0].value += straight.objective_change;
+    found.functions[1].value = (1 - straight.gaps.front() - missing) * measure;
+    const auto bends = proposals.bends(straight, found);
+    ASSERT_EQ(bends.size(), 1u);
+    EXPECT_NEAR(bends.front(), missing, 1e-12);
+    const auto corrected = *proposals.move(state.step, bends);
+    EXPECT_LE(corrected.gaps.front(), 1e-9);
+    EXPECT_NEAR(measure_after(corrected) - measure_after(straight), missing * measure,
+                0.1 * missing * measure);
+    found.functions[0].value += 10 * straight.penalties.front() * missing;
+    EXPECT_TRUE(proposals.bends(straight, found).empty());
+  }
+}
+
 // A bound that the optimum keeps anyway has no multiplier; bounds that contradict each other are violated.
 TEST(SequentialQuadratic, ReportsInactiveAndInfeasibleBounds) {
   const double initial = material_measure(displaced_hole());

@@ -32,7 +32,7 @@ DescentProposals<dim>::DescentProposals(const Evolver<dim>& evolver, const Optim
     : evolver_(evolver), options_(options), state_(state), velocity_(std::move(velocity)) {}
 
 template <int dim>
-Expected<Move<dim>> DescentProposals<dim>::move(double step) const {
+Expected<Move<dim>> DescentProposals<dim>::move(double step, const std::vector<double>&) const {
   const bool stands = std::ranges::all_of(velocity_, [](double v) { return v == 0; });
   const double change = stands ? 0 : predicted_change(step);
   return Move<dim>{.velocity = velocity_,
@@ -58,6 +58,11 @@ double DescentProposals<dim>::predicted_change(double step) const {
     boundary += sample.weight;
   }
   return by_motion + (next_measure(options_, state_, step) - state_.measure) * sum / boundary;
+}
+
+template <int dim>
+std::vector<double> DescentProposals<dim>::bends(const Move<dim>&, const Evaluation<dim>&) const {
+  return {};
 }
 
 template <int dim>

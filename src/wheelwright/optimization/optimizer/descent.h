@@ -19,7 +19,8 @@ class DescentProposals final : public Proposals<dim> {
   DescentProposals(const Evolver<dim>& evolver, const OptimizerOptions& options,
                    const OptimizationState<dim>& state, std::vector<double> velocity);
 
-  Expected<Move<dim>> move(double step) const override;
+  Expected<Move<dim>> move(double step, const std::vector<double>& bends = {}) const override;
+  std::vector<double> bends(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   bool accepts(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   StepMemory remembered(const Move<dim>& move, const LevelSet<dim>&, const Evaluation<dim>& evaluation,

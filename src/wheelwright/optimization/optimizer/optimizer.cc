@@ -219,10 +219,11 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
     observer(trials_.without_shape(state, 0, state.step, proposals.failure()), state);
     return StopReason::gave_up;
   }
-  bool all_failed = true, is_sound = false;
+  bool all_failed = true, is_sound = false, may_be_corrected = true;
   double step = state.step;
-  for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
-    const auto move = (*proposals)->move(step);
+  std::vector<double> bends;
+  for (int halvings = 0; halvings <= options_.max_halvings + (may_be_corrected ? 0 : 1); ++halvings) {
+    const auto move = (*proposals)->move(step, bends);
     if (!move) {
       observer(trials_.without_shape(state, halvings, step, move.failure()), state);
       return StopReason::gave_up;
@@ -245,7 +246,11 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
     const bool was_reshaped = halvings == 0 && options_.method == Method::sequential_quadratic &&
                               (is_due(options_.redistance_every, state.since_redistance) ||
                                is_due(options_.smooth_every, state.since_smoothing));
-    step = was_reshaped ? move->radius : step_reduction * move->step;
+    may_be_corrected = may_be_corrected && bends.empty();
+    bends = trial.verdict == Verdict::objective_rose && !was_reshaped && may_be_corrected
+                ? (*proposals)->bends(*move, *trial.evaluation)
+                : std::vector<double>();
+    step = was_reshaped || !bends.empty() ? move->radius : step_reduction * move->step;
     if (trial.verdict == Verdict::failed && halvings >= halvings_before_rest && !is_sound) {
       const Trial<dim> at_rest = trials_.at_rest(state, **proposals, *move, halvings + 1);
       if (was_interrupted(at_rest)) return StopReason::stop_requested;

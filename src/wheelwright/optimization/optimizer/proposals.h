@@ -23,6 +23,7 @@ struct Move {
   double model_decrease;    ///< of the merit function, predicted by the method's model
   std::vector<double> multipliers = {};
   std::vector<double> penalties = {};
+  std::vector<double> gaps = {};  ///< predicted for bound_constraints(), in their order
 };
 
 /// The proposals of a method from one state, which must outlive this.
@@ -31,8 +32,13 @@ class Proposals {
  public:
   virtual ~Proposals() = default;
 
-  /// The move by at most `step` cells.
-  virtual Expected<Move<dim>> move(double step) const = 0;
+  /// The move by at most `step` cells, if bounds are nearer after it by `bends` than their derivatives say,
+  /// in the order of bound_constraints(); none if empty.
+  virtual Expected<Move<dim>> move(double step, const std::vector<double>& bends = {}) const = 0;
+
+  /// By how much bounds are nearer at the shape of a rejected move than was predicted, if a move with these
+  /// bends may be accepted where this one was not; otherwise empty.
+  virtual std::vector<double> bends(const Move<dim>& move, const Evaluation<dim>& evaluation) const = 0;
 
   /// Whether the shape after the move is good enough to continue from.
   virtual bool accepts(const Move<dim>& move, const Evaluation<dim>& evaluation) const = 0;

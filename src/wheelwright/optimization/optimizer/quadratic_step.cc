@@ -54,7 +54,7 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
     for (int j = 0; j < m; ++j)
       dual.quadratic(i, j) = 0.5 * (c.sign * products[j][c.vector] +
                                     model.constraints[j].sign * products[i][model.constraints[j].vector]);
-    dual.linear.push_back(-(c.sign * product_with(model.products, c.vector, d) + c.gap));
+    dual.linear.push_back(-(c.sign * product_with(model.products, c.vector, d) + c.gap + c.bend));
     dual.lower.push_back(c.is_equality ? -c.penalty : 0);
     dual.upper.push_back(c.penalty);
   }
@@ -69,6 +69,7 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
                      .shift = shift,
                      .slope = inner(model.products, objective, d),
                      .decrease = 0,
+                     .gaps = {},
                      .violations = {},
                      .is_feasible = is_bounded};
   const double curvature =
@@ -76,7 +77,8 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
   step.decrease = -step.slope - curvature / 2;
   for (int i = 0; i < m; ++i) {
     const auto& c = model.constraints[i];
-    const double after = violation(c, c.gap + c.sign * product_with(model.products, c.vector, d));
+    step.gaps.push_back(c.gap + c.bend + c.sign * product_with(model.products, c.vector, d));
+    const double after = violation(c, step.gaps.back());
     if (c.is_in_merit && !std::isinf(c.penalty)) step.decrease += c.penalty * (violation(c, c.gap) - after);
     step.violations.push_back(after);
   }

@@ -8,12 +8,13 @@
 
 namespace wheelwright {
 
-/// A linearized constraint on a step d: gap + sign (a, d) <= 0, or = 0 for an equality.
+/// A linearized constraint on a step d: gap + bend + sign (a, d) <= 0, or = 0 for an equality.
 struct LinearConstraint {
   int vector;   ///< a in the span
   double sign;  ///< 1 or -1
   double gap;   ///< violation at d = 0; negative: distance from violation
   bool is_equality;
+  double bend = 0;  ///< what a step of this length adds to the linear change of the violation
   /// The cost per unit of violation in the merit function; infinite: a hard constraint. A multiplier that
   /// reaches it means that the constraint is relaxed.
   double penalty = std::numeric_limits<double>::infinity();
@@ -36,9 +37,10 @@ struct QuadraticStep {
   std::vector<double> coefficients;  ///< of d
   std::vector<double> multipliers;   ///< of the constraints; those of inequalities are >= 0
   double shift;
-  double slope;     ///< (g, d)
-  double decrease;  ///< of the model (without the shift) from d = 0; infinite penalties do not count
-  std::vector<double> violations;  ///< of the linearized constraints after the step
+  double slope;              ///< (g, d)
+  double decrease;           ///< of the model (without the shift) from d = 0; infinite penalties do not count
+  std::vector<double> gaps;  ///< of the linearized constraints after the step; positive: violated
+  std::vector<double> violations;  ///< the same, 0 where there is none
   bool is_feasible;                ///< false: the constraints with infinite penalties contradict each other
 };
 

@@ -155,7 +155,8 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
 /// Holds the coefficients that would move into a band, and lets control points follow those of the layer
 /// before that would pass them: repeats the search for the move until no others are added.
 template <int dim>
-Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
+Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step,
+                                                            const std::vector<double>& bends) const {
   constexpr int max_turns = 5;
   std::vector<bool> held(state_.shape.values.size(), false);
   Following following;
@@ -166,27 +167,31 @@ Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
     const bool holds_more = evolver_.hold_at_bands(c, move.velocity, distance, held);
     return evolver_.follow_in_mould(c, move.velocity, distance, following) || holds_more;
   };
-  auto move = move_with(held, following, step);
-  for (int turn = 0; turn < max_turns && limit_more(move); ++turn) move = move_with(held, following, step);
+  auto move = move_with(held, following, step, bends);
+  for (int turn = 0; turn < max_turns && limit_more(move); ++turn)
+    move = move_with(held, following, step, bends);
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
 }
 
 template <int dim>
 Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held,
-                                                       const Following& following, double step) const {
+                                                       const Following& following, double step,
+                                                       const std::vector<double>& bends) const {
   const double measure = next_measure(options_, state_, step);
   auto motion = motion_.holding(held);
   if (following.any()) motion = motion.following(state_.shape, state_.evaluation.boundary, following);
   const Span span = span_of(motion);
   auto penalties = this->penalties();
-  const auto found = step_in(motion, span, state_.measure - measure, step, penalties);
+  const auto found = step_in(motion, span, state_.measure - measure, step, bends, penalties);
   auto deformation = combination(found.coefficients, span.deformations);
   auto radii = radii_after(deformation);
   auto velocity = motion.speeds_at_nodes(space_.of_shape(deformation));
   const double resolution = state_.shape.lattice.grid().resolution();
   const double distance = largest_magnitude(velocity) / resolution,
                farthest = largest_magnitude(speeds(motion, deformation));
+  const auto of_bounds = found.gaps.end() - static_cast<std::ptrdiff_t>(constraints_.size() + widths_.size() +
+                                                                        2 * space_.n_radii());
   return {.velocity = std::move(velocity),
           .deformation = std::move(deformation),
           .radii = std::move(radii),
@@ -199,7 +204,8 @@ Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& 
           .multipliers = {found.multipliers.begin(),
                           found.multipliers.end() -
                               static_cast<std::ptrdiff_t>(widths_.size() + 2 * space_.n_radii())},
-          .penalties = penalties};
+          .penalties = penalties,
+          .gaps = {of_bounds, of_bounds + static_cast<std::ptrdiff_t>(constraints_.size())}};
 }
 
 /// The speeds of the points of the boundary, then those of the design lines.
@@ -232,6 +238,7 @@ std::vector<double> SequentialQuadraticProposals<dim>::radii_after(std::vector<d
 template <int dim>
 QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<dim>& motion, const Span& span,
                                                          double gap, double step,
+                                                         const std::vector<double>& bends,
                                                          std::vector<double>& penalties) const {
   constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9, comes_first = 10;
   constexpr int max_raises = 10;
@@ -247,7 +254,8 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<di
     model.constraints.push_back({.vector = static_cast<int>(2 + i),
                                  .sign = constraints_[i].sign,
                                  .gap = constraints_[i].gap,
-                                 .is_equality = constraints_[i].is_equality});
+                                 .is_equality = constraints_[i].is_equality,
+                                 .bend = bends.empty() ? 0 : bends[i]});
   const double of_widths = comes_first * std::abs(state_.evaluation.function(options_.objective).value);
   for (size_t k = 0; k < widths_.size(); ++k)
     model.constraints.push_back({.vector = static_cast<int>(2 + constraints_.size() + k),
@@ -313,6 +321,29 @@ bool SequentialQuadraticProposals<dim>::accepts(const Move<dim>& move,
   const double before =
       merit(state_.evaluation.function(options_.objective).value, constraints_, move.penalties);
   return merit(objective, bound_constraints(evaluation), move.penalties) <= before + noise();
+}
+
+/// Only if bounds have more than half of the blame: where the objective itself rose, a shorter step is
+/// needed.
+template <int dim>
+std::vector<double> SequentialQuadraticProposals<dim>::bends(const Move<dim>& move,
+                                                             const Evaluation<dim>& evaluation) const {
+  constexpr double most_of_it = 0.5;
+  const auto after = bound_constraints(evaluation);
+  std::vector<double> result;
+  auto predicted = after;
+  for (size_t i = 0; i < after.size(); ++i) {
+    predicted[i].gap = move.gaps[i];
+    result.push_back(after[i].is_equality ? after[i].gap - move.gaps[i]
+                                          : std::max(after[i].gap - move.gaps[i], 0.0));
+  }
+  const double before =
+      merit(state_.evaluation.function(options_.objective).value, constraints_, move.penalties);
+  const double shortfall = merit(evaluation.function(options_.objective).value, after, move.penalties) -
+                           (before - move.model_decrease);
+  const double by_bounds = merit(0, after, move.penalties) - merit(0, predicted, move.penalties);
+  if (!(by_bounds > most_of_it * shortfall)) return {};
+  return result;
 }
 
 template <int dim>

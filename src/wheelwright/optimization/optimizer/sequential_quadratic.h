@@ -13,7 +13,9 @@ namespace wheelwright {
 /// functions, where B is the L-BFGS matrix of the Lagrangian in the inner product of deformations
 /// (shape/evolution/deformation_space.h), and no point of the boundary moves farther than the step. The step
 /// shrinks if the model predicts poorly and grows if it predicts well. Bounds that cannot be met within a
-/// step are relaxed; their penalties grow until the step does about as much for them as possible. Widths that
+/// step are relaxed; their penalties grow until the step does about as much for them as possible. A move that
+/// is rejected because a bound curves is repeated with the bound as it was found (the second-order correction
+/// of Fletcher 1982), without which steps along a bound shrink to nothing (Maratos 1978). Widths that
 /// a step could bring below their minimum are constraints too, with a penalty so large that they take
 /// priority.
 template <int dim>
@@ -22,7 +24,8 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   SequentialQuadraticProposals(const Evolver<dim>& evolver, const OptimizerOptions& options,
                                const OptimizationState<dim>& state);
 
-  Expected<Move<dim>> move(double step) const override;
+  Expected<Move<dim>> move(double step, const std::vector<double>& bends = {}) const override;
+  std::vector<double> bends(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   bool accepts(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape, const Evaluation<dim>& evaluation,
@@ -38,9 +41,10 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   };
 
   Span span_of(const BoundaryMotion<dim>& motion) const;
-  Move<dim> move_with(const std::vector<bool>& held, const Following& following, double step) const;
+  Move<dim> move_with(const std::vector<bool>& held, const Following& following, double step,
+                      const std::vector<double>& bends) const;
   QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
-                        std::vector<double>& penalties) const;
+                        const std::vector<double>& bends, std::vector<double>& penalties) const;
   std::vector<double> penalties() const;
   double noise() const;
   std::vector<double> speeds(const BoundaryMotion<dim>& motion, std::span<const double> deformation) const;
