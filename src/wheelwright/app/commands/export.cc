@@ -16,7 +16,7 @@
 #include "wheelwright/output/export/formats.h"
 #include "wheelwright/output/export/plugin.h"
 #include "wheelwright/run/results/fitted_wheel.h"
-#include "wheelwright/run/results/mould_report.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/results/turned_wheel.h"
 #include "wheelwright/run/study/roughness_warning.h"
 #include "wheelwright/shape/geometry/invariance.h"
@@ -233,9 +233,10 @@ class ExportCommand : public Subcommand {
     if (!wheel) return wheel.failure();
     fmt::print("{:<16} {}\n{}", "wheel", wheel->model.title, text(wheel->whole));
     warn_of_pieces(wheel->whole.report.bodies);
-    const MouldReport mould = mould_report(input.source, wheel->model.surface);
-    fmt::print("{}", mould.text);
-    if (mould.warning) print_warning(stderr, *mould.warning);
+    const MadeWheel made = made_wheel(input.source, wheel->model.surface);
+    if (made.mould) fmt::print("{:<16} {}\n", made.how, text(made));
+    if (const std::string undercut = undercut_warning(made); !undercut.empty())
+      print_warning(stderr, undercut);
     return std::move(wheel->model);
   }
 
