@@ -4,6 +4,7 @@ usage: driving_test.py PROGRAM, from the repository's top folder."""
 import csv
 import importlib.util
 import json
+import math
 import re
 import signal
 import subprocess
@@ -42,6 +43,35 @@ tread_band = 0.035
 iterations = 3
 """
 # No wheel of this material is so stiff.
+# In 3D, small; the moulds part away from the middle.
+MOULDED_CASE = """
+[wheel]
+dimension = 3
+sectors = 8
+width = 0.12
+[load]
+positions = 1
+[material]
+poissons_ratio = 0.3
+[[holes.ring]]
+count = 8
+center_radius = 0.265
+radius = 0.03
+[grid]
+radial_cells = 8
+angular_cells = 64
+axial_cells = 4
+degree = 1
+tread_levels = 0
+[optimizer]
+iterations = 2
+rim_band = 0.018
+tread_band = 0.036
+made = "moulded"
+draft = 3
+parting_plane = 0.03
+"""
+
 BOUNDED_CASE = CASE.replace("iterations = 3", 'iterations = 2\nmethod = "sequential_quadratic"') + """
 [[constraint]]
 quantity = "stiffness"
@@ -128,6 +158,33 @@ class Driving(unittest.TestCase):
         finished = run("resume", results, "--events", "json", "--iterations", 5)
         self.assert_events(events_of(finished.stdout), 0)
         self.assertEqual(events_of(finished.stdout)[-1]["reason"], None)
+
+    def test_a_run_tells_how_its_wheel_is_made(self):
+        results = self.folder / "results"
+        done = run("run", self.write("case.toml", MOULDED_CASE), "--output", results)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads((results / "summary.json").read_text(encoding="utf-8"))
+        validator("summary").validate(summary)
+        made, draft = summary["made"], summary["made"]["smallest_draft"]
+        self.assertEqual(made["how"], "moulded")
+        self.assertAlmostEqual(made["parting_plane_m"], 0.03)
+        self.assertAlmostEqual(made["draft_rad"], math.radians(3))
+        self.assertGreater(draft["angle_rad"], 0)
+        self.assertTrue(0.20 < draft["radius_m"] < 0.34 and 0 <= draft["z_m"] <= 0.12, draft)
+        # The terminal, the page and export say it too.
+        angle = f"{math.degrees(draft['angle_rad']):.3g} deg"
+        self.assertIn(angle, done.stdout)
+        self.assertIn(angle, (results / "report.html").read_text(encoding="utf-8"))
+        exported = run("export", results, "--output", self.folder).stdout
+        told = re.search(r"z = ([\d.]+) mm, smallest draft ([\d.]+) deg", exported)
+        self.assertEqual(told[1], "30.0")
+        self.assertAlmostEqual(float(told[2]), math.degrees(draft["angle_rad"]), delta=0.5)  # another surface
+
+    def test_check_tells_how_a_wheel_is_made(self):
+        case = self.write("case.toml", MOULDED_CASE)
+        self.assertRegex(run("check", case).stdout, r"moulded .*z = 30\.0 mm, smallest draft [\d.]+ deg")
+        case.write_text(MOULDED_CASE.replace("moulded", "extruded").split("draft")[0], encoding="utf-8")
+        self.assertRegex(run("check", case).stdout, r"\n +extruded +\w")
 
     def test_a_bound_that_is_violated_is_told(self):
         done = run("run", self.write("case.toml", BOUNDED_CASE), "--output", self.folder / "results", "--events", "json")

@@ -713,6 +713,69 @@ class Solid(unittest.TestCase):
             self.assertEqual((again / f"solid.{ending}").read_bytes(), (self.folder / f"solid.{ending}").read_bytes(), ending)
 
 
+CONES = """
+[wheel]
+dimension = 3
+width = 0.11
+sectors = 7
+[[holes.tapered]]
+count = 7
+center_radius = 0.265
+profile = [[-0.055, 0.014], [0, 0.022], [0.055, 0.030]]
+phase = 11
+[material]
+poissons_ratio = 0.3
+[grid]
+radial_cells = 28
+angular_cells = 252
+axial_cells = 4
+level_set_degree = 2
+tread_levels = 0
+"""
+
+
+class Sections(unittest.TestCase):
+    """Sections of cones across the axle, which are round; in mm."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.case = temporary / "cones.toml"
+        cls.case.write_text(CONES)
+        cls.folder = temporary / "cones_export"
+        cls.told = wheelwright("export", cls.case, "--format", "stl", "--sections", "0,37.5,110", "--output", cls.folder)
+
+    def test_they_are_where_they_are_asked_for(self):
+        self.assertEqual(sorted(file.name for file in self.folder.glob("cones*")),
+                         sorted(["cones.stl"] + [f"cones-z{z}.{kind}" for z in ("0", "37.5", "110") for kind in ("dxf", "svg")]))
+        for z in (0, 37.5, 110):
+            radius = 14 + 16 * z / 110
+            layers = dxf_polygons(self.folder / f"cones-z{z}.dxf")
+            self.assertEqual(len(layers["HOLE"]), 7)
+            azimuths = []
+            for hole in layers["HOLE"]:
+                corners = [(p, q, p[0] * q[1] - q[0] * p[1]) for p, q in zip(hole, hole[1:] + hole[:1])]
+                area = sum(twice for _, _, twice in corners) / 2
+                x, y = (sum((p[i] + q[i]) * twice for p, q, twice in corners) / (6 * area) for i in range(2))
+                self.assertAlmostEqual(math.sqrt(abs(area) / math.pi), radius, delta=0.02 * radius)
+                self.assertAlmostEqual(math.hypot(x, y), 265, delta=0.2)
+                azimuths.append(math.degrees(math.atan2(y, x)) % (360 / 7))
+            for azimuth in azimuths:
+                self.assertAlmostEqual(azimuth, 11, delta=0.1)
+            svg = (self.folder / f"cones-z{z}.svg").read_text()
+            self.assertIn("material", svg)
+
+    def test_planes_beside_the_wheel_and_plane_wheels_are_refused(self):
+        folder = Path(tempfile.mkdtemp(dir=temporary))
+        for z in ("-1", "110.1", "0,111"):
+            told = wheelwright("export", self.case, f"--sections={z}", "--output", folder, code=2)
+            self.assertIn("--sections", told)
+        plane = temporary / "plane_without_sections.toml"
+        plane.write_text(NO_SYMMETRY)
+        wheelwright("export", plane, "--sections", "10", "--output", folder, code=2)
+        wheelwright("export", self.case, "--sections", "middle", "--output", folder, code=2)
+        self.assertEqual(os.listdir(folder), [])
+
+
 TURNED = """
 [wheel]
 dimension = 3

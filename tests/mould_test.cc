@@ -14,6 +14,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/linalg/dense.h"
 #include "wheelwright/quantities/functionals/strain_energy.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/evolution/evolver.h"
 #include "wheelwright/shape/geometry/cell_map.h"
@@ -182,6 +183,48 @@ TEST(Mould, CasesNeedAPlaneBetweenCellsAndThreeDimensions) {
   EXPECT_EQ(problem(wheel + "draft = 2\n"), "the wheel is not moulded");
   EXPECT_EQ(problem("[optimizer]\n" + made), "a 2D wheel has one section");
   EXPECT_NE(problem(wheel + made + "draft = 60\n"), "");
+}
+
+/// A cone narrows towards z = 0: it comes out of a mould that parts there, and not of one that parts at its
+/// wide end.
+TEST(MadeWheel, HasTheSmallestDraftAndThePartingPlaneOfItsCase) {
+  Case c;
+  c.wheel.dimension = 3;
+  c.wheel.width = 0.12;
+  c.grid.axial_cells = 6;
+  c.optimizer.made = Manufacture::moulded;
+  c.optimizer.draft = 3 * degree;
+  const auto full = make_level_set<3>(Lattice<3>(grid(), 2), std::span<const Circle>{});
+  const double angle = 5 * degree;
+  const auto cone =
+      with_hole(full, TaperedHole{0.27, 0.26, {{0.0, 0.02}, {0.12, 0.02 + 0.12 * std::tan(angle)}}});
+  for (const double plane : {0.0, 0.12}) {
+    c.optimizer.parting_plane = plane;
+    const MadeWheel made = *made_wheel<3>(c, cone);
+    EXPECT_EQ(made.how, "moulded");
+    EXPECT_NEAR(made.mould->parting_plane, plane, 1e-12);
+    EXPECT_EQ(made.mould->draft, c.optimizer.draft);
+    EXPECT_NEAR(made.mould->smallest.angle, plane == 0 ? angle : -angle, 0.6 * degree);
+    EXPECT_EQ(undercut_warning(made).empty(), plane == 0);
+  }
+  c.optimizer.parting_plane.reset();
+  EXPECT_NEAR(made_wheel<3>(c, full)->mould->parting_plane, 0.06, 1e-12);
+  EXPECT_EQ(undercut_warning(*made_wheel<3>(c, full)), "");  // without holes
+}
+
+TEST(MadeWheel, IsNamedAsInItsCase) {
+  const auto full = make_level_set<3>(Lattice<3>(grid(), 2), std::span<const Circle>{});
+  Case c;
+  c.wheel.dimension = 3;
+  for (const auto& [made, name] : {std::pair(Manufacture::free, "free"),
+                                   {Manufacture::extruded, "extruded"},
+                                   {Manufacture::turned, "turned"}}) {
+    c.optimizer.made = made;
+    const MadeWheel wheel = *made_wheel<3>(c, full);
+    EXPECT_EQ(wheel.how, name);
+    EXPECT_FALSE(wheel.mould);
+    EXPECT_EQ(sentence(wheel).empty(), made == Manufacture::free);
+  }
 }
 
 TEST(Mould, EveryStageKeepsIt) {

@@ -3,6 +3,7 @@
 
 #include "wheelwright/case/common_keys.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/manufacture_words.h"
 #include "wheelwright/case/unlimited.h"
 
 namespace wheelwright {
@@ -198,7 +199,7 @@ std::vector<Key<Optimizer>> search_keys() {
                   "normal; harmonic: the speed of the paper's harmonic extension; auto: vector with "
                   "sequential quadratic steps for the weighted sum without bounds in 2D, else h1"},
       {.name = "made",
-       .field = choice<&Optimizer::made>({"free", "extruded", "turned", "moulded"}),
+       .field = choice<&Optimizer::made>({manufacture_words.begin(), manufacture_words.end()}),
        .meaning =
            "in 3D, what every shape of a run is. extruded: the same all along the axle; turned: a body of "
            "revolution, by default in sectors of a few cells and, without losses and fatigue, with one load "

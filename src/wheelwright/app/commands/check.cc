@@ -9,6 +9,7 @@
 #include "wheelwright/app/slow_stage.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/dimension.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/study/bound_warnings.h"
 #include "wheelwright/run/study/case_report.h"
 #include "wheelwright/run/study/checked_case.h"
@@ -84,6 +85,9 @@ class CheckCommand : public Subcommand {
     if (const auto change =
             in_dimension_of(c, [&](auto dim) { return volume_change_of_saved_shape<dim>(c); }))
       checked.notes.push_back(text(*change) + '\n');
+    if (const auto made = in_dimension_of(c, [&](auto dim) { return made_wheel(c, initial_shape<dim>(c)); }))
+      if (const std::string how = text(*made); !how.empty())
+        checked.notes.push_back(fmt::format("  {:<22}{}\n", made->how, how));
     const auto measures = initial_outline_measures(c);
     if (measures) checked.clearances = measures->clearances;
     if (measures) checked.notes.push_back(clearance_report(measures->clearances));

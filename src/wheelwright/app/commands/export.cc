@@ -7,6 +7,7 @@
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/number_list.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
@@ -16,7 +17,7 @@
 #include "wheelwright/output/export/formats.h"
 #include "wheelwright/output/export/plugin.h"
 #include "wheelwright/run/results/fitted_wheel.h"
-#include "wheelwright/run/results/mould_report.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/results/turned_wheel.h"
 #include "wheelwright/run/study/roughness_warning.h"
 #include "wheelwright/shape/geometry/invariance.h"
@@ -27,7 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *default_formats = "dxf,svg,stl", *default_formats_3d = "stl";
+constexpr const char *default_formats = "dxf,svg,stl", *default_formats_3d = "stl",
+                     *formats_of_sections = "dxf,svg";
 constexpr double default_tolerance = 0.01, default_tolerance_3d = 0.1, min_tolerance = 0.001,
                  max_tolerance = 1000;  // [mm]
 constexpr double finest_share = 1e-6;   // smallest tolerance, as a fraction of the outer radius
@@ -92,6 +94,10 @@ std::string check_tolerance(const std::string& text) {
              : fmt::format("must be a length from {} to {} mm", min_tolerance, max_tolerance);
 }
 
+std::string check_sections(const std::string& text) {
+  return parse_number_list(text) ? "" : "must be z in mm: A,B,..., or FROM:TO:N";
+}
+
 /// A model and the name of its files, without the extension.
 template <class Model>
 struct Named {
@@ -116,6 +122,10 @@ class ExportCommand : public Subcommand {
                              "[mm]; default {}, in 3D {}",
                              default_tolerance, default_tolerance_3d));
     add_output(options, output_, "Folder for the files; default: the current one");
+    options.text(
+        "--sections", "Z,Z,...", sections_, check_sections,
+        "Also write sections of a wheel in 3D by planes across the axle as DXF and SVG; z is measured "
+        "from its side face at z = 0 [mm]; FROM:TO:N stands for N planes evenly spaced");
     options.flag("--by-layer", by_layer_,
                  "Also write each layer of a wheel of several materials to files of its own");
     options.flag("--force", force_, "Overwrite files that exist");
@@ -124,16 +134,11 @@ class ExportCommand : public Subcommand {
   int run() override {
     const auto wheel = read_wheel_or_report(input_, {name(), {}});
     if (!wheel) return wheel.failure();
-    if (const auto* solid = std::get_if<WheelInput<3>>(&*wheel);
-        solid && is_exported_as_plane(solid->shape)) {
-      fmt::print("{:<16} the same all along the axle, exported as a plane wheel\n", "shape");
-      return export_wheel(
-          WheelInput<2>{solid->source, mid_plane_section(solid->shape), solid->name, solid->which});
-    }
-    if (const auto* solid = std::get_if<WheelInput<3>>(&*wheel);
-        solid && is_invariant(solid->shape, Invariance::about_axle))
-      return export_turned(*solid);
-    return std::visit([this](const auto& input) { return export_wheel(input); }, *wheel);
+    Files files;
+    int code = std::visit([&](const auto& input) { return add_wheel_files(input, files); }, *wheel);
+    if (code == exit_done && sections_)
+      code = std::visit([&](const auto& input) { return add_sections(input, files); }, *wheel);
+    return code == exit_done ? write(files) : code;
   }
 
  private:
@@ -169,9 +174,22 @@ class ExportCommand : public Subcommand {
     return true;
   }
 
-  /// Exports the whole wheel, and on request its layers as files of their own.
+  int add_wheel_files(const WheelInput<2>& input, Files& files) const {
+    return add_files_of_shape(input, files);
+  }
+
+  int add_wheel_files(const WheelInput<3>& input, Files& files) const {
+    if (is_exported_as_plane(input.shape)) {
+      fmt::print("{:<16} the same all along the axle, exported as a plane wheel\n", "shape");
+      return add_files_of_shape(
+          WheelInput<2>{input.source, mid_plane_section(input.shape), input.name, input.which}, files);
+    }
+    if (is_invariant(input.shape, Invariance::about_axle)) return add_files_of_turned(input, files);
+    return add_files_of_shape(input, files);
+  }
+
   template <int dim>
-  int export_wheel(const WheelInput<dim>& input) const {
+  int add_files_of_shape(const WheelInput<dim>& input, Files& files) const {
     using Model = std::conditional_t<dim == 2, WheelModel, SurfaceModel>;
     const Formats chosen = formats(dim == 2 ? default_formats : default_formats_3d);
     if (!can_hold_or_tell<Model>(chosen)) return exit_usage;
@@ -179,31 +197,53 @@ class ExportCommand : public Subcommand {
     if (dim == 2 && is_too_fine(accuracy, input.source)) return exit_usage;
     const auto wheel = fitted(input, accuracy);
     if (!wheel) return refuse(wheel.failure());
-    Files files;
-    const int code = add_files(input.name, *wheel, chosen, files);
-    return code == exit_done ? write(files) : code;
+    return add_files(input.name, *wheel, chosen, files);
   }
 
-  /// Exports a body of revolution: its profile in the formats that hold one, its surface in the others.
-  int export_turned(const WheelInput<3>& input) const {
+  /// Of a body of revolution: its profile in the formats that hold one, its surface in the others.
+  int add_files_of_turned(const WheelInput<3>& input, Files& files) const {
     const double accuracy = tolerance(default_tolerance);
     if (is_too_fine(accuracy, input.source)) return exit_usage;
     Formats of_profile, of_surface;
     for (const ExportFormat* format : formats(default_formats))
       (can_hold(*format, static_cast<const TurnedModel*>(nullptr)) ? of_profile : of_surface)
           .push_back(format);
-    Files files;
     if (!of_profile.empty()) {
       const auto wheel = fitted_profile(input, accuracy);
       if (!wheel) return refuse(wheel.failure());
       if (const int code = add_files(input.name, *wheel, of_profile, files); code != exit_done) return code;
     }
-    if (!of_surface.empty()) {
-      const auto wheel = fitted(input, tolerance(default_tolerance_3d));
-      if (!wheel) return refuse(wheel.failure());
-      if (const int code = add_files(input.name, *wheel, of_surface, files); code != exit_done) return code;
+    if (of_surface.empty()) return exit_done;
+    const auto wheel = fitted(input, tolerance(default_tolerance_3d));
+    if (!wheel) return refuse(wheel.failure());
+    return add_files(input.name, *wheel, of_surface, files);
+  }
+
+  int add_sections(const WheelInput<2>&, Files&) const {
+    print_err("wheelwright {}: --sections is for wheels in 3D\n", name());
+    return exit_usage;
+  }
+
+  int add_sections(const WheelInput<3>& input, Files& files) const {
+    const double accuracy = tolerance(default_tolerance);
+    if (is_too_fine(accuracy, input.source)) return exit_usage;
+    const auto planes = parse_number_list(*sections_);
+    for (const double z : *planes) {
+      if (!(z >= 0 && z * 1e-3 <= input.source.wheel.width * (1 + 1e-9))) {
+        print_err("wheelwright {}: --sections: no section at {} mm; the wheel extends from 0 to {:g} mm\n",
+                  name(), z, input.source.wheel.width * 1e3);
+        return exit_usage;
+      }
+      const WheelInput<2> section{input.source, section_at(input.shape, z * 1e-3),
+                                  fmt::format("{}-z{:g}", input.name, z),
+                                  fmt::format("{}, section at z = {:g} mm", input.which, z)};
+      const auto fitted_section = fitted(section, accuracy);
+      if (!fitted_section) return refuse(fitted_section.failure());
+      const Formats drawings = *parse_formats(formats_of_sections);
+      if (const int code = add_files(section.name, *fitted_section, drawings, files); code != exit_done)
+        return code;
     }
-    return write(files);
+    return exit_done;
   }
 
   /// Whether curves cannot be fitted that accurately; says so.
@@ -233,9 +273,10 @@ class ExportCommand : public Subcommand {
     if (!wheel) return wheel.failure();
     fmt::print("{:<16} {}\n{}", "wheel", wheel->model.title, text(wheel->whole));
     warn_of_pieces(wheel->whole.report.bodies);
-    const MouldReport mould = mould_report(input.source, wheel->model.surface);
-    fmt::print("{}", mould.text);
-    if (mould.warning) print_warning(stderr, *mould.warning);
+    const MadeWheel made = made_wheel(input.source, wheel->model.surface);
+    if (made.mould) fmt::print("{:<16} {}\n", made.how, text(made));
+    if (const std::string undercut = undercut_warning(made); !undercut.empty())
+      print_warning(stderr, undercut);
     return std::move(wheel->model);
   }
 
@@ -313,7 +354,7 @@ class ExportCommand : public Subcommand {
   }
 
   std::string input_;
-  std::optional<std::string> formats_, tolerance_, output_;
+  std::optional<std::string> formats_, tolerance_, output_, sections_;
   bool force_ = false, by_layer_ = false;
 };
 

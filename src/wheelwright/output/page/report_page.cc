@@ -257,6 +257,7 @@ Json run_json(const ReportRun<dim>& run) {
   if (run.given) json["given_contours"] = run.given->contours;
   if (run.summary) {
     json["summary"] = Json::parse(summary_json(*run.summary));
+    if (run.summary->made) json["made"] = sentence(*run.summary->made);
     for (const SummarizedBound& bound : run.summary->bounds)
       json["bound_units"].push_back({{"unit", bound.shown.name}, {"factor", bound.shown.factor}});
     json["rolling"] = {{"before", rolling_json(run.summary->before.wheel)},

@@ -83,6 +83,25 @@ std::vector<ComparedRow> rows(const RunSummary<dim>& summary) {
   return result;
 }
 
+Json angle_json(const AxialAngle& found) {
+  if (!std::isfinite(found.angle)) return {};
+  return {{"angle_rad", found.angle},
+          {"radius_m", found.place[0]},
+          {"azimuth_rad", found.place[1]},
+          {"z_m", found.place[2]}};
+}
+
+/// The smallest draft of a wheel without holes is null.
+Json made_json(const MadeWheel& made) {
+  Json json{{"how", made.how}};
+  if (made.mould) {
+    json["parting_plane_m"] = made.mould->parting_plane;
+    json["draft_rad"] = made.mould->draft;
+    json["smallest_draft"] = angle_json(made.mould->smallest);
+  }
+  return json;
+}
+
 const char* word(FinerVerdict verdict) {
   return verdict == FinerVerdict::kept           ? "kept"
          : verdict == FinerVerdict::within_error ? "within_error"
@@ -147,10 +166,11 @@ std::string text(const ChosenRadius& radius) {
 template <int dim>
 std::string summary_table(const RunSummary<dim>& summary) {
   const std::string remarks = remarks_text(summary.remarks);
+  const std::string made = summary.made ? sentence(*summary.made) : "";
   std::string radii;
   for (const ChosenRadius& radius : summary.radii) radii += text(radius) + '\n';
   return comparison_table({"before", "after"}, rows(summary)) + stress_lines(summary.after.wheel) +
-         places_of_fatigue(summary.after.wheel) + radii +
+         places_of_fatigue(summary.after.wheel) + (made.empty() ? "" : made + "\n") + radii +
          (remarks.empty() ? "" : "\nworse than before:\n" + remarks) +
          (summary.changed_start.empty() ? "" : "\n" + summary.changed_start + "\n");
 }
@@ -161,6 +181,7 @@ std::string summary_json(const RunSummary<dim>& summary) {
             {"width_m", summary.after.wheel.grid.width},
             {"before", shape_json(summary.before, summary.minimized)},
             {"after", shape_json(summary.after, summary.minimized)}};
+  if (summary.made) json["made"] = made_json(*summary.made);
   for (const SummarizedBound& bound : summary.bounds) json["bounds"].push_back(bound_json(bound));
   json["remarks"] = Json::array();
   for (const Remark& remark : summary.remarks)

@@ -7,6 +7,7 @@
 #include "wheelwright/base/expected.h"
 #include "wheelwright/base/units.h"
 #include "wheelwright/output/report/described_wheel.h"
+#include "wheelwright/output/report/made_wheel.h"
 #include "wheelwright/output/report/remark.h"
 
 namespace wheelwright {
@@ -77,7 +78,8 @@ struct RunSummary {
   std::vector<Remark> remarks = {};  ///< what got clearly worse
   std::string bounded_peaks = {};    ///< at how many positions bounds on peaks apply; empty without such
   std::vector<ChosenRadius> radii = {};
-  std::string changed_start = {};  ///< how the run's first shape differs from the given wheel, if it does
+  std::optional<MadeWheel> made = {};  ///< the last shape, in 3D
+  std::string changed_start = {};      ///< how the run's first shape differs from the given wheel, if it does
 };
 
 /// The numbers of the two shapes that could not be computed, and why: one line per reason.

@@ -8,6 +8,7 @@
 #include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/results/bounded_peaks.h"
 #include "wheelwright/run/results/given_wheel.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/results/remarks.h"
 #include "wheelwright/run/results/run_title.h"
 #include "wheelwright/run/study/bounded_functions.h"
@@ -64,6 +65,7 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const Study<dim>& given,
           .remarks = std::move(worse),
           .bounded_peaks = bounded_peaks(study.source),
           .radii = chosen_radii(study, given),
+          .made = made_wheel<dim>(study.source, last.shape),
           .changed_start = changed_start(given, start)};
 }
 

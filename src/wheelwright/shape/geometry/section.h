@@ -9,6 +9,9 @@ namespace wheelwright {
 template <int dim>
 LevelSet<2> mid_plane_section(const LevelSet<dim>& psi);
 
+/// The section of a shape by a plane across the axle, exactly; `z` [m] from 0 to the width.
+LevelSet<2> section_at(const LevelSet<3>& psi, double z);
+
 /// The lattice of such sections.
 Lattice<2> section_lattice(const Lattice<3>& lattice);
 

@@ -215,6 +215,7 @@
     const section = (title, ...children) => element("section", {}, element("h2", {}, title), ...children);
     const made = element("article", { id: run.id }, element("h1", {}, run.title),
       element("p", { class: "quiet", id: `${run.id}-status` }, `${data.runs.length > 1 ? `run ${run.name}; ` : ""}${run.status}; load ${run.load}`));
+    if (run.made) made.append(element("p", { class: "quiet", id: `${run.id}-made` }, run.made));
     if (run.summary) made.append(verdict(run));
     const pictures = element("div", { class: "pictures wheels" });
     const picture = (part) => {

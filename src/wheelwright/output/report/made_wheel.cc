@@ -1,0 +1,45 @@
+#include "wheelwright/output/report/made_wheel.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "wheelwright/shape/geometry/place.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr double mm_per_m = 1e3, degrees_per_radian = 180 / std::numbers::pi;
+
+std::string at(const AxialAngle& found) {
+  return fmt::format("{:.3g} deg at {}, z = {:.1f} mm", found.angle * degrees_per_radian,
+                     place_text<3>(found.place), found.place[2] * mm_per_m);
+}
+
+}  // namespace
+
+std::string text(const MadeWheel& made) {
+  if (made.mould) {
+    const auto& [plane, draft, smallest] = *made.mould;
+    const std::string halves = fmt::format("the halves of the mould meet at z = {:.1f} mm", plane * mm_per_m);
+    if (!std::isfinite(smallest.angle)) return halves;
+    return fmt::format("{}, smallest draft {}", halves, at(smallest));
+  }
+  if (made.how == "extruded") return "the same all along the axle";
+  if (made.how == "turned") return "a body of revolution";
+  return "";
+}
+
+std::string sentence(const MadeWheel& made) {
+  const std::string meaning = text(made);
+  return meaning.empty() ? "" : fmt::format("{}: {}", made.how, meaning);
+}
+
+std::string undercut_warning(const MadeWheel& made) {
+  constexpr double rounding = 0.01;  // degrees
+  if (!made.mould || !(made.mould->smallest.angle * degrees_per_radian < -rounding)) return "";
+  return fmt::format("an undercut does not come out of the mould: {}", at(made.mould->smallest));
+}
+
+}  // namespace wheelwright

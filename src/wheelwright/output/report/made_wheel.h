@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "wheelwright/shape/surface/axial_angles.h"
+
+namespace wheelwright {
+
+/// How a wheel comes out of a mould of two halves.
+struct MouldedWheel {
+  double parting_plane;  ///< z of the plane in which the halves meet [m]
+  double draft;          ///< that its case asks for [rad]
+  AxialAngle smallest;   ///< of its surface; infinite without holes
+};
+
+/// How a wheel in 3D is made.
+struct MadeWheel {
+  std::string how;                         ///< as case files name it, e.g. "moulded"
+  std::optional<MouldedWheel> mould = {};  ///< of moulded wheels
+};
+
+/// What that means, e.g. "a body of revolution"; empty for wheels of any shape.
+std::string text(const MadeWheel& made);
+
+/// Both in one line, e.g. "turned: a body of revolution"; empty for wheels of any shape.
+std::string sentence(const MadeWheel& made);
+
+/// Where the wheel does not come out of its mould; empty if it does.
+std::string undercut_warning(const MadeWheel& made);
+
+}  // namespace wheelwright

@@ -1,0 +1,29 @@
+#include "wheelwright/run/results/making.h"
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/manufacture_words.h"
+#include "wheelwright/output/report/shape_boundary.h"
+
+namespace wheelwright {
+
+MadeWheel made_wheel(const Case& c, const SurfaceMesh& surface) {
+  MadeWheel made{std::string(manufacture_words[static_cast<std::size_t>(c.optimizer.made)])};
+  if (const auto of_case = mould(c)) {
+    const PolarGrid<3> grid = polar_grid<3>(c);
+    const double plane = parting_plane_of(*of_case, grid) * grid.axial_size();
+    made.mould = {plane, c.optimizer.draft, smallest_draft(surface, plane)};
+  }
+  return made;
+}
+
+template <>
+std::optional<MadeWheel> made_wheel(const Case&, const LevelSet<2>&) {
+  return {};
+}
+
+template <>
+std::optional<MadeWheel> made_wheel(const Case& c, const LevelSet<3>& shape) {
+  return made_wheel(c, shape_boundary(shape, c.grid.degree));
+}
+
+}  // namespace wheelwright
