@@ -7,6 +7,8 @@
 
 #include "tests/support.h"
 #include "tests/von_mises.h"
+#include "wheelwright/mechanics/equilibrium/large_deformation_problem.h"
+#include "wheelwright/mechanics/hyperelastic/hyperelastic_law.h"
 #include "wheelwright/mechanics/state/strain_peaks.h"
 #include "wheelwright/output/report/rolling_report.h"
 #include "wheelwright/output/report/solution_fields.h"
@@ -308,6 +310,38 @@ TEST(Analysis, LoadsAgreeWithSolvingAfresh) {
   }
 }
 
+/// The stiffnesses under a load against differences of the loads and travels around it.
+void expect_tangent_stiffness(const State<2>& state, double load) {
+  constexpr double step = 1e-5;  // rarely is there a load at which a point comes to touch in it
+  const std::vector<double> loads{(1 - step) * load, load, (1 + step) * load};
+  const auto curve = under_loads<2>(state, loads);
+  for (const auto& of_load : curve) ASSERT_TRUE(of_load) << of_load.failure().detail;
+  double mean = 0;
+  for (size_t i = 0; i < curve[1]->size(); ++i) {
+    const double travels = (*curve[2])[i].travel - (*curve[0])[i].travel;
+    ASSERT_TRUE((*curve[1])[i].stiffness);
+    EXPECT_NEAR(*(*curve[1])[i].stiffness * travels / (loads[2] - loads[0]), 1, 1e-5);
+    mean += travels / static_cast<double>(curve[1]->size());
+  }
+  EXPECT_NEAR(*tangent_stiffness(*curve[1]) * mean / (loads[2] - loads[0]), 1, 1e-5);
+}
+
+// On a wheel without symmetry with friction and a force along the ground.
+TEST(Analysis, TangentStiffnessIsTheDerivativeOfTheLoadByTheTravel) {
+  RollingModel<2> model = coarse_model(3);
+  model.contact.friction = 0.4;
+  model.horizontal_force = 0.1 * model.load;
+  const std::vector<Hole> holes{{0.2513, 0.04 * pi / 8, 0.0213}, {0.2731, 0.53 * pi / 8, 0.0267}};
+  expect_tangent_stiffness(*analyzed(model, holes).state, 1.5 * model.load);
+  model.materials = Materials<2>(std::make_shared<HyperelasticLaw<2>>(Material{8e6, 0.48}));
+  model.contact.theta_nitsche = 0;
+  model.contact.gamma_0 = 20;
+  const auto problem = *LargeDeformationProblem<2>::create(model);
+  const auto state = testing::all_states<2>(problem, testing::holes(model.grid, 2, holes));
+  ASSERT_TRUE(state) << state.failure().detail;
+  expect_tangent_stiffness(**state, 1.5 * model.load);
+}
+
 // --- Physics -------------------------------------------------------------------------------------------
 
 /// Nothing but the ghost penalty and Nitsche's terms take work that is not strain energy.
@@ -468,6 +502,8 @@ TEST(Report, JsonReadsBackToTheSameNumbers) {
   ASSERT_EQ(json["loads"].size(), 2u);
   EXPECT_EQ(json["loads"][1]["load_N"], loads[1]);
   EXPECT_EQ(json["loads"][1]["positions"][3]["travel_m"], (*curve[1])[3].travel);
+  EXPECT_EQ(json["loads"][1]["positions"][3]["tangent_stiffness_N_per_m"], *(*curve[1])[3].stiffness);
+  EXPECT_EQ(json["loads"][1]["tangent_stiffness_N_per_m"], *tangent_stiffness(*curve[1]));
 }
 
 // What a second solve would give is missing; everything else is there.

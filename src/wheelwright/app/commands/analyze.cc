@@ -36,9 +36,10 @@ constexpr const char* result_file = "analysis.json";
 
 /// All files that are written to the folder: add the names of new files here.
 constexpr std::string_view files_of_analysis[] = {
-    "analysis.json",      "travel.svg",       "force.svg",    "peak_pressure.svg", "pressures.svg",
-    "pressures.csv",      "pass.csv",         "loads.svg",    "mesh.svg",          "stress.svg",
-    "stress_contact.svg", "displacement.svg", "pressure.svg", "fatigue.svg",       "temperature.svg"};
+    "analysis.json",    "travel.svg",    "force.svg",   "peak_pressure.svg",
+    "pressures.svg",    "pressures.csv", "pass.csv",    "loads.svg",
+    "stiffness.svg",    "mesh.svg",      "stress.svg",  "stress_contact.svg",
+    "displacement.svg", "pressure.svg",  "fatigue.svg", "temperature.svg"};
 
 /// The case with the tread levels of another one.
 Case with_levels_of(Case c, const Case& other) {
@@ -104,7 +105,9 @@ void write_plots(const std::filesystem::path& folder, const RollingReport& repor
   if (report.analysis.travel_at_load) plot("travel.svg", travel_plot(report));
   if (report.analysis.force_at_travel) plot("force.svg", force_plot(report));
   plot("peak_pressure.svg", peak_pressure_plot(report));
-  if (!report.loads.empty()) plot("loads.svg", load_plot(report));
+  if (report.loads.empty()) return;
+  plot("loads.svg", load_plot(report));
+  plot("stiffness.svg", stiffness_plot(report));
 }
 
 /// The contact of all positions, and pictures of the loaded wheel.

@@ -6,8 +6,10 @@
 #include <mutex>
 #include <utility>
 
+#include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/mechanics/contact/contact_results.h"
+#include "wheelwright/mechanics/contact/tangent_stiffness.h"
 #include "wheelwright/mechanics/elasticity/voigt_indices.h"
 #include "wheelwright/mechanics/equilibrium/deformed_gradient.h"
 #include "wheelwright/mechanics/rolling/moving_boundary.h"
@@ -113,6 +115,19 @@ ContactPatch<dim> deformed_patch(const LargeDeformation<dim>& solution,
   return patch;
 }
 
+/// The contacts of all positions, with the stiffness of the tangents at their solutions.
+template <int dim>
+std::vector<ContactPatch<dim>> patches_with_stiffness(const LargeDeformationProblem<dim>& problem,
+                                                      const LargeDeformation<dim>& solution) {
+  std::vector<ContactPatch<dim>> patches(solution.equilibria.size());
+  parallel_for(solution.positions.size(), [&](int i) {
+    patches[i] = deformed_patch(solution, solution.equilibria[i]);
+    if (const auto tangent = problem.linearized(solution, solution.equilibria[i]))
+      patches[i].stiffness = tangent_stiffness(tangent->solution.contact, tangent->solution.state);
+  });
+  return patches;
+}
+
 template <int dim>
 class DeformedState : public State<dim> {
  public:
@@ -180,9 +195,7 @@ class DeformedState : public State<dim> {
       if (!next) return Failure(next.failure());
       solved.push_back(*std::move(next));
       if (solved.size() > 2) solved.pop_front();
-      result.emplace_back();
-      for (const auto& equilibrium : solved.back().equilibria)
-        result.back().push_back(deformed_patch(solved.back(), equilibrium));
+      result.push_back(patches_with_stiffness(problem_, solved.back()));
     }
     return result;
   }

@@ -5,6 +5,7 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/mechanics/contact/contact_results.h"
+#include "wheelwright/mechanics/contact/tangent_stiffness.h"
 #include "wheelwright/mechanics/rolling/energy_by_harmonic.h"
 #include "wheelwright/mechanics/rolling/growth_gradient.h"
 #include "wheelwright/mechanics/rolling/neumann_to_dirichlet.h"
@@ -86,19 +87,21 @@ class RingState : public State<dim> {
     std::vector<std::vector<ContactPatch<dim>>> result;
     for (const RollingModel<dim>& model : models) {
       std::vector<std::optional<Failure>> failures(rolled.size());
+      std::vector<ContactPatch<dim>> patches(rolled.size());
       parallel_for(static_cast<int>(rolled.size()), [&](int i) {
         auto next = reload(model, problem_.tread(), solution_.ring, *solution_.surface,
                            solution_.positions.grounds[i], solution_.preloads[i], rolled[i]);
-        if (next)
-          rolled[i] = *std::move(next);
-        else
+        if (!next) {
           failures[i] = next.failure();
+          return;
+        }
+        rolled[i] = *std::move(next);
+        patches[i] = contact_patch(rolled[i].contact, rolled[i].state);
+        patches[i].stiffness = tangent_stiffness(rolled[i].contact, rolled[i].state);
       });
       for (const auto& failure : failures)
         if (failure) return *failure;
-      result.emplace_back();
-      for (const RolledContact<dim>& one : rolled)
-        result.back().push_back(contact_patch(one.contact, one.state));
+      result.push_back(std::move(patches));
     }
     return result;
   }

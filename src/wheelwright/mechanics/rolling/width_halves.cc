@@ -165,6 +165,7 @@ ContactPatch<3> WidthHalves::patch(const ContactPatch<3>& of_half) const {
                         .rim_force = scaled(2, of_half.rim_force),
                         .newton_iterations = of_half.newton_iterations,
                         .growth = of_half.growth};
+  if (of_half.stiffness) patch.stiffness = 2 * *of_half.stiffness;
   patch.rim_force.along_axle = 0;
   for (size_t first = 0; first < of_half.points.size(); first += n_half)
     for (int q = 0; q < n_points; ++q) {

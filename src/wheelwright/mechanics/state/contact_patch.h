@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "wheelwright/mechanics/state/ground_frame.h"
@@ -45,6 +46,10 @@ struct ContactPatch {
   /// By how much rotation without load lifts the rim: the rotating wheel without load touches the ground
   /// where the rim has moved towards it by -growth [m].
   double growth = 0;
+  /// The derivative of the force that presses the wheel to the ground with respect to the rim's travel, at
+  /// the solution [Pa when dim = 2, N/m when dim = 3]. In the contacts of State::contacts_under(), unless the
+  /// equations have none there; nothing in others, for which nobody asks.
+  std::optional<double> stiffness = {};
 
   /// Travel of the rim towards the ground, from where the rotating wheel without load touches it [m].
   double travel() const { return rim.towards_ground + growth; }

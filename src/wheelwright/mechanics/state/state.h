@@ -136,8 +136,8 @@ class State : public std::enable_shared_from_this<State<dim>> {
       std::span<const MaterialPoint<dim>> points) const = 0;
 
   /// The contacts of the same shape and positions under other models, which may differ from the solver's only
-  /// in the loads or the travel of the rim: [model][position]. Each starts from the one before. Fails as the
-  /// contact problem does.
+  /// in the loads or the travel of the rim, with their stiffnesses: [model][position]. Each starts from the
+  /// one before. Fails as the contact problem does.
   virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
       std::span<const RollingModel<dim>> models) const = 0;
 

@@ -550,21 +550,54 @@ std::optional<double> mean_travel_error(const RollingReport& report, size_t load
                               finer(report)->refinement);
 }
 
+/// A stiffness per metre of width on the whole width, when dim = 2.
+std::optional<double> on_width(const RollingReport& report, std::optional<double> stiffness) {
+  return stiffness ? std::optional(*stiffness * forces(report)) : std::nullopt;
+}
+
+/// Load by mean travel [N/m].
+double secant_under(const RollingReport& report, size_t load) {
+  return report.loads[load] * forces(report) / mean_travel_under(report, load);
+}
+
+std::optional<double> secant_error(const RollingReport& report, size_t load) {
+  const auto of_travel = mean_travel_error(report, load);
+  if (!of_travel) return {};
+  return secant_under(report, load) * *of_travel / mean_travel_under(report, load);
+}
+
+/// dF/d(mean travel) at a load [N/m].
+std::optional<double> tangent_under(const RollingReport& report, size_t load) {
+  return on_width(report, tangent_stiffness(*report.under_loads[load]));
+}
+
+std::optional<double> tangent_error(const RollingReport& report, size_t load) {
+  if (!finer(report) || !finer(report)->under_loads[load]) return {};
+  const auto tangent = tangent_under(report, load),
+             of_finer = on_width(report, tangent_stiffness(*finer(report)->under_loads[load]));
+  if (!tangent || !of_finer) return {};
+  return discretization_error(*tangent, *of_finer, finer(report)->refinement);
+}
+
 std::string load_lines(const RollingReport& report) {
-  constexpr const char* words = "{:>11}{:>12}{:>12}{:>12}{:>12}{:>12}\n";
-  const char* error = finer(report) ? "+-" : "";
+  constexpr const char* words = "{:>11}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n";
+  const char *error = finer(report) ? "+-" : "", *unit_of_error = finer(report) ? "[N/mm]" : "";
   std::string table =
-      fmt::format(words, "load", "mean travel", "minimum", "maximum", "stiffness", error) +
-      fmt::format(words, "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]", finer(report) ? "[N/mm]" : "");
+      fmt::format(words, "load", "mean travel", "minimum", "maximum", "stiffness", error, "tangent", error) +
+      fmt::format(words, "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]", unit_of_error, "[N/mm]", unit_of_error);
+  const auto of_error = [](std::optional<double> error) {
+    return error ? fmt::format("{:12.2g}", *error * N_per_mm) : fmt::format("{:12}", "");
+  };
   for (size_t k = 0; k < report.loads.size(); ++k) {
     if (!report.under_loads[k]) continue;
     const RollingVariation travel = travel_variation(*report.under_loads[k]);
-    const double load = report.loads[k] * forces(report), stiffness = load / travel.mean * N_per_mm;
+    const double load = report.loads[k] * forces(report);
     table += fmt::format("{:11.2f}{:12.6f}{:12.6f}{:12.6f}{:12.2f}", load, travel.mean * mm,
-                         travel.minimum * mm, travel.maximum * mm, stiffness);
-    if (const auto of_travel = mean_travel_error(report, k))
-      table += fmt::format("{:12.2g}", stiffness * *of_travel / travel.mean);
-    table += '\n';
+                         travel.minimum * mm, travel.maximum * mm, secant_under(report, k) * N_per_mm);
+    table += of_error(secant_error(report, k));
+    const auto tangent = tangent_under(report, k);
+    table += tangent ? fmt::format("{:12.2f}", *tangent * N_per_mm) : fmt::format("{:>12}", "-");
+    table += of_error(tangent_error(report, k)) + '\n';
   }
   return table;
 }
@@ -679,6 +712,8 @@ Json fatigue_json(const RollingReport& report, const Results& found,
   return json;
 }
 
+Json known(std::optional<double> number) { return number ? Json(*number) : Json(); }
+
 Json loads_json(const RollingReport& report) {
   Json loads = Json::array();
   for (size_t k = 0; k < report.loads.size(); ++k) {
@@ -692,15 +727,17 @@ Json loads_json(const RollingReport& report) {
       positions.push_back({{"travel_m", p.travel},
                            {"peak_pressure_Pa", p.peak_pressure},
                            {"patch_length_m", p.patch_length},
-                           {"patch_extent_m", p.patch_extent}});
-    const double mean_travel = mean_travel_under(report, k);
+                           {"patch_extent_m", p.patch_extent},
+                           {"tangent_stiffness_N_per_m", known(on_width(report, p.stiffness))}});
     loads.push_back({{"load_N", load},
-                     {"mean_travel_m", mean_travel},
-                     {"stiffness_N_per_m", load / mean_travel},
+                     {"mean_travel_m", mean_travel_under(report, k)},
+                     {"stiffness_N_per_m", secant_under(report, k)},
+                     {"tangent_stiffness_N_per_m", known(tangent_under(report, k))},
                      {"positions", positions}});
     if (const auto error = mean_travel_error(report, k))
-      loads.back()["errors"] = {{"mean_travel_m", *error},
-                                {"stiffness_N_per_m", load / mean_travel * *error / mean_travel}};
+      loads.back()["errors"] = {{"mean_travel_m", *error}, {"stiffness_N_per_m", *secant_error(report, k)}};
+    if (const auto error = tangent_error(report, k))
+      loads.back()["errors"]["tangent_stiffness_N_per_m"] = *error;
   }
   return loads;
 }
@@ -844,6 +881,23 @@ LinePlot load_plot(const RollingReport& report) {
     for (size_t i = 0; i < plot.curves.size(); ++i) {
       plot.curves[i].x.push_back(report.loads[k] * forces(report));
       plot.curves[i].y.push_back(travels[i] * mm);
+    }
+  }
+  return plot;
+}
+
+LinePlot stiffness_plot(const RollingReport& report) {
+  LinePlot plot{"Stiffness against load",
+                {"load", "N"},
+                {"stiffness", "N/mm"},
+                {{"secant", {}, {}}, {"tangent", {}, {}}}};
+  for (size_t k = 0; k < report.loads.size(); ++k) {
+    if (!report.under_loads[k]) continue;
+    const std::optional<double> stiffnesses[] = {secant_under(report, k), tangent_under(report, k)};
+    for (size_t i = 0; i < plot.curves.size(); ++i) {
+      if (!stiffnesses[i]) continue;
+      plot.curves[i].x.push_back(report.loads[k] * forces(report));
+      plot.curves[i].y.push_back(*stiffnesses[i] * N_per_mm);
     }
   }
   return plot;

@@ -72,4 +72,7 @@ LinePlot peak_pressure_plot(const RollingReport& report);
 /// Travel against load, from zero: the softest position, the mean and the stiffest.
 LinePlot load_plot(const RollingReport& report);
 
+/// Against load: the load by the mean travel, and its derivative with respect to that.
+LinePlot stiffness_plot(const RollingReport& report);
+
 }  // namespace wheelwright

@@ -148,6 +148,15 @@ std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>&
   return result;
 }
 
+std::optional<double> tangent_stiffness(std::span<const ContactSummary> positions) {
+  double compliance = 0;
+  for (const ContactSummary& position : positions) {
+    if (!position.stiffness) return {};
+    compliance += 1 / *position.stiffness / static_cast<double>(positions.size());
+  }
+  return 1 / compliance;
+}
+
 template decltype(rolling_analysis<2>) rolling_analysis<2>;
 template decltype(under_loads<2>) under_loads<2>;
 template decltype(rolling_analysis<3>) rolling_analysis<3>;

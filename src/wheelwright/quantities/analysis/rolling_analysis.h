@@ -44,4 +44,8 @@ template <int dim>
 std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
                                                                std::span<const double> loads);
 
+/// The derivative of the load with respect to the mean of the travels, from the stiffnesses of all positions
+/// under that load: their harmonic mean. Nothing if one of them is unknown.
+std::optional<double> tangent_stiffness(std::span<const ContactSummary> positions);
+
 }  // namespace wheelwright

@@ -119,7 +119,8 @@ ContactSummary contact_summary(const ContactPatch<dim>& contact) {
                          .patch_extent = 0,
                          .travel_along_ground = contact.rim.along_ground,
                          .wind_up = contact.rim.rotation,
-                         .descent = contact.rim.towards_ground};
+                         .descent = contact.rim.towards_ground,
+                         .stiffness = contact.stiffness};
   std::vector<GroundPoint> points;
   for (const auto& point : contact.points) {
     const Vec<dim> on_ground = point.ground_traction();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,7 @@ struct ContactSummary {
   double travel_along_ground = 0;  ///< of the rim [m]
   double wind_up = 0;              ///< the angle by which the rim turns [rad]
   double descent = 0;              ///< of the axle, from its place with the wheel at rest without load [m]
+  std::optional<double> stiffness = {};  ///< ContactPatch::stiffness [Pa]
 };
 
 /// Each lobe of the patch, a part without gaps, ends where the square of the pressure, extrapolated from its
