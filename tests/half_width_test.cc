@@ -68,6 +68,8 @@ void expect_the_same_patch(const ContactPatch<3>& a, const ContactPatch<3>& b, d
   EXPECT_NEAR(a.rim_force.towards_ground, b.rim_force.towards_ground, 1e-7);
   EXPECT_NEAR(a.rim_force.torque, b.rim_force.torque, 1e-7);
   EXPECT_NEAR(a.rim_force.along_axle, b.rim_force.along_axle, 1e-7);
+  ASSERT_EQ(a.stiffness.has_value(), b.stiffness.has_value());
+  if (a.stiffness) EXPECT_NEAR(*a.stiffness / *b.stiffness, 1, 1e-8);
   ASSERT_EQ(a.points.size(), b.points.size());
   std::vector<double> tractions_a, tractions_b;
   for (size_t k = 0; k < a.points.size(); ++k) {

@@ -48,7 +48,7 @@ def even(n):
     return np.linspace(0, 1, n + 1)
 
 
-def graded(n, power=3):
+def graded(n, power=2):
     """Finer towards both ends, where the stress is singular."""
     half = 0.5 * np.linspace(0, 1, n // 2 + 1) ** power
     return np.concatenate([half, 1 - half[-2::-1]])
@@ -137,8 +137,8 @@ def assembled(model, u):
 
 
 CASES = {
-    "bushing": (bushing, even, [(3, 36, 4), (4, 48, 4)], (-0.042, 0.0)),
-    "block": (block, graded, [(6, 6, 4), (8, 8, 4)], (-0.028, 0.01)),
+    "bushing": (bushing, even, [(3, 36, 4), (4, 48, 4)], {0.3: (-0.042, 0.0), 0.49: (-0.007, 0.0)}),
+    "block": (block, graded, [(6, 6, 4), (8, 8, 4)], dict.fromkeys((0.3, 0.49), (-0.028, 0.01))),
 }
 
 
@@ -147,11 +147,11 @@ def main():
     print("| body | nu | cells, degree | unknowns | energy [J/m] | force [N/m] | along |\n|---|---|---|---|---|---|---|")
     for name in names:
         place, across, meshes, moved = CASES[name]
-        for ratio in (0.3, 0.49):
+        for ratio, motion in moved.items():
             for n_radial, n_across, degree in meshes:
                 radial = across(n_radial)
                 mesh = mesh_of(place, radial, across(n_across), degree)
-                energy, force, unknowns = solve(mesh, degree, ratio, moved)
+                energy, force, unknowns = solve(mesh, degree, ratio, motion)
                 print(
                     f"| {name} | {ratio} | {n_radial} x {n_across}, {degree} | {unknowns} | {energy:.4f}"
                     f" | {force[0]:.2f} | {force[1]:.2f} |",
