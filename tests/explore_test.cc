@@ -429,16 +429,29 @@ iterations = 10
   const std::vector<RankedQuantity> quantities{*find_quantity("stiffness"), *find_quantity("peak_pressure")};
   const ThreadLimit one_thread_each{1};
 
+  DesignPlan exploration(const std::vector<Design>& designs) const {
+    return {.name = "explore",
+            .title = "Test",
+            .has_previews = true,
+            .quantities = quantities,
+            .designs = designs};
+  }
+
+  static std::vector<RatedDesign> run_all(const fs::path& place, const std::vector<Design>& designs,
+                                          const RunSettings& settings) {
+    return run_planned(place, {.name = "sweep", .title = "Test", .designs = designs}, settings);
+  }
+
   std::map<std::string, std::string> explored(const fs::path& place, RunSettings settings) {
     const auto designs =
         planned_designs(small, {.starts = 4, .seed = 3, .keeps_sectors = false, .quantities = quantities});
     if (!designs) throw std::runtime_error(designs.failure().detail);
     make_folder(place);
+    const DesignPlan plan = exploration(*designs);
     FinalistSettings on_finer{.threads = settings.threads, .stop_requested = settings.stop_requested};
     on_finer.begin = [this](const std::vector<RatedDesign>& solved, double) { n_solved_ += solved.size(); };
-    const auto rated =
-        with_finer_numbers(place, explore(place, *designs, quantities, settings), quantities, on_finer);
-    write_designs(place, "explore", rated, quantities, "Test");
+    const auto rated = with_finer_numbers(place, run_planned(place, plan, settings), quantities, on_finer);
+    write_designs(place, plan, rated);
     std::map<std::string, std::string> files;
     for (const char* name : {"explore.csv", "explore.json", "explore.html", "pareto.svg"})
       files[name] = content(place / name);
@@ -663,7 +676,9 @@ TEST_F(Exploration, OfMinimumMassRanksFeasibleDesignsFirst) {
   ASSERT_TRUE(designs) << designs.failure().detail;
   EXPECT_EQ(designs->size(), 4u);
   make_folder(folder() / "mass");
-  const auto order = ranked(explore(folder() / "mass", *designs, asked, {.threads = 1}), asked);
+  const DesignPlan plan{
+      .name = "explore", .title = "Test", .has_previews = true, .quantities = asked, .designs = *designs};
+  const auto order = ranked(run_planned(folder() / "mass", plan, {.threads = 1}), asked);
   ASSERT_EQ(order.size(), 4u);
   const double initial = initial_volume(small);
   bool was_kept = true;
@@ -686,7 +701,7 @@ TEST_F(Exploration, GeneratesStartsWithinTheTimeLimit) {
     n_starts = progress.n_starts;
     has_ended = progress.has_ended;
   };
-  const ExplorationPlan plan{.starts = 999, .seed = 3, .keeps_sectors = false, .quantities = quantities};
+  const ExplorationSettings plan{.starts = 999, .seed = 3, .keeps_sectors = false, .quantities = quantities};
   const auto some = planned_designs(small, plan, settings);
   ASSERT_TRUE(some);
   EXPECT_TRUE(has_ended);
@@ -730,6 +745,96 @@ TEST_F(Exploration, DesignWithFolderInUseHasNoResult) {
   EXPECT_FALSE(fs::exists(folder() / "all" / "designs" / "002.full.json"));
 }
 
+TEST_F(Exploration, APlanIsReadBackAsItWasWritten) {
+  const auto designs =
+      planned_designs(small, {.starts = 12, .seed = 3, .keeps_sectors = false, .quantities = quantities});
+  ASSERT_TRUE(designs);
+  make_folder(folder() / "all");
+  write_plan(folder() / "all", exploration(*designs));
+  const auto read = read_plan(folder() / "all");
+  ASSERT_TRUE(read) << read.failure().text;
+  ASSERT_EQ(read->designs.size(), designs->size());
+  for (std::size_t i = 0; i < designs->size(); ++i) {
+    EXPECT_EQ(read->designs[i].name, (*designs)[i].name);
+    EXPECT_EQ(read->designs[i].text, (*designs)[i].text);
+    EXPECT_EQ(read->designs[i].parameters, (*designs)[i].parameters);
+    EXPECT_EQ(to_toml(read->designs[i].source), to_toml((*designs)[i].source));
+  }
+  EXPECT_TRUE(read->has_previews && read->is_complete && read->solves_finalists);
+  EXPECT_TRUE(
+      std::ranges::equal(read->quantities, quantities, {}, &RankedQuantity::key, &RankedQuantity::key));
+}
+
+// A process that dies between the end of a preview and the storage of its result leaves a run that is over.
+TEST_F(Exploration, APreviewWhoseResultWasNotStoredIsNotContinued) {
+  Case longer = small;
+  longer.optimizer.iterations = 24;
+  const auto designs =
+      planned_designs(longer, {.starts = 1, .seed = 3, .keeps_sectors = false, .quantities = quantities});
+  ASSERT_TRUE(designs);
+  const fs::path place = folder() / "all", result = place / "designs" / "001.preview.json";
+  make_folder(place);
+  run_designs(place, *designs, Progression::preview, {.threads = 1});
+  const std::string before = content(result);
+  const auto files = results(place / "designs" / "001");
+  ASSERT_EQ(design_result(before).shapes, 15);
+  fs::remove(result);
+  run_designs(place, *designs, Progression::preview, {.threads = 1});
+  EXPECT_EQ(content(result), before);
+  EXPECT_EQ(results(place / "designs" / "001"), files);
+}
+
+TEST_F(Exploration, ADesignThatAnotherProcessRunsIsWaitedFor) {
+  const auto designs =
+      planned_designs(small, {.starts = 2, .seed = 3, .keeps_sectors = false, .quantities = quantities});
+  ASSERT_TRUE(designs);
+  const fs::path place = folder() / "all";
+  make_folder(place);
+  prepare_designs(place, *designs);
+  auto held = std::make_optional(FileLock::acquire(lock_of_design(place, designs->back())));
+  ASSERT_TRUE(*held);
+  RunSettings settings{.threads = 1};
+  std::vector<std::string> done;
+  int n_asked = 0;
+  settings.done = [&](const Design& design, const DesignResult&) { done.push_back(design.name); };
+  settings.waits = [&](const Design& design, const FolderInUse& holder) {
+    EXPECT_EQ(design.name, "002");
+    EXPECT_EQ(holder.process, ::getpid());
+    if (++n_asked == 3) held.reset();  // it died
+    return true;
+  };
+  const auto rated = run_all(place, *designs, settings);
+  EXPECT_EQ(rated.size(), 2u);
+  EXPECT_EQ(n_asked, 3);
+  EXPECT_EQ(done, (std::vector<std::string>{"001", "002"}));
+}
+
+// The choices depend on the results only: those of a process that had no time for all designs do not remain.
+TEST_F(Exploration, StepsOfAPlanAreDueInTurn) {
+  const auto designs =
+      planned_designs(small, {.starts = 4, .seed = 3, .keeps_sectors = false, .quantities = quantities});
+  ASSERT_TRUE(designs);
+  const fs::path place = folder() / "steps";
+  make_folder(place);
+  const DesignPlan plan = exploration(*designs);
+  prepare_designs(place, *designs);
+  int n_previews = 0;
+  for (Standing now = standing(place, plan); !now.due.empty(); now = standing(place, plan)) {
+    if (now.progression == Progression::preview) {
+      EXPECT_EQ(now.due.size() + n_previews++, designs->size());
+    } else {
+      EXPECT_EQ(n_previews, static_cast<int>(designs->size()));
+    }
+    run_designs(place, {now.due.back()}, now.progression, {.threads = 1});  // backwards, one by one
+  }
+  write_designs(place, plan, standing(place, plan).designs);
+  const fs::path straight = folder() / "straight";
+  make_folder(straight);
+  write_designs(straight, plan, run_planned(straight, plan, {.threads = 2}));
+  for (const char* name : {"explore.csv", "explore.json", "explore.html", "pareto.svg"})
+    EXPECT_EQ(content(place / name), content(straight / name)) << name;
+}
+
 TEST_F(Exploration, KnownResultsAreReused) {
   explored(folder() / "one", {.threads = 1});
   EXPECT_GE(n_solved_, 1u);
@@ -751,7 +856,7 @@ TEST_F(Exploration, UnbeatenDesignsAreAllOptimizedToTheEnd) {
       planned_designs(longer, {.starts = 6, .seed = 6, .keeps_sectors = false, .quantities = quantities});
   ASSERT_TRUE(designs);
   make_folder(folder() / "all");
-  const auto rated = explore(folder() / "all", *designs, quantities, {.threads = 1});
+  const auto rated = run_planned(folder() / "all", exploration(*designs), {.threads = 1});
   const auto front = fronts(rated_points(rated, quantities));
   int n_full = 0;
   for (std::size_t i = 0; i < rated.size(); ++i) {
@@ -769,7 +874,7 @@ TEST_F(Exploration, EveryDesignHasTheVolumeOfTheCaseAndARunThatOpens) {
   ASSERT_TRUE(designs);
   make_folder(folder() / "all");
   const double volume = initial_volume(small);
-  for (const RatedDesign& one : explore(folder() / "all", *designs, quantities, {.threads = 1})) {
+  for (const RatedDesign& one : run_planned(folder() / "all", exploration(*designs), {.threads = 1})) {
     EXPECT_NEAR(one.result.numbers.at("volume_fraction"), volume, 1e-5);
     const fs::path run = folder() / "all" / "designs" / one.design.name;
     const CaseResult read = read_case(run / "case.toml");

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <memory>
 #include <random>
 #include <thread>
 
@@ -212,6 +213,109 @@ class Killed : public TemporaryFolder {
     }
   }
 };
+
+/// All that an exploration's folder has, but locks, times, and the names of folders.
+std::map<std::string, std::string> results_of_designs(const fs::path& all) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(all))
+    if (entry.is_regular_file()) files[entry.path().filename()] = content(entry.path());
+  for (const auto& entry : fs::directory_iterator(all / "designs")) {
+    const std::string name = entry.path().filename();
+    if (entry.is_regular_file()) files[name] = content(entry.path());
+    if (!entry.is_directory()) continue;
+    for (const auto& [file, text] : results(entry.path())) files[name + "/" + file] = text;
+  }
+  std::erase_if(files, [](const auto& file) {
+    return file.first.ends_with(".lock") || file.first.ends_with(list_of_written_files);
+  });
+  return files;
+}
+
+const std::string designs_to_explore = small_case(20) + "errors = \"estimated\"\n";
+
+/// One process plans, and `n` run the designs, each of which is killed and replaced twice.
+class SharedPlan : public Killed {
+ protected:
+  fs::path planned(const std::string& name) {
+    const fs::path place = workplace(name, designs_to_explore);
+    Program plan(place, {"explore", "case.toml", "--starts", "4", "--output", "all", "--plan"});
+    EXPECT_EQ(plan.wait(), exit_done) << plan.printed();
+    EXPECT_FALSE(fs::exists(place / "all/designs/001/history.csv")) << "a plan computes nothing";
+    return place;
+  }
+
+  void run_and_kill(const fs::path& place, int n, double whole, std::mt19937& random) {
+    std::uniform_real_distribution<double> moment(0, whole / 4);
+    std::vector<std::unique_ptr<Program>> programs(n);
+    for (auto& program : programs) program = std::make_unique<Program>(place, work);
+    for (int k = 0; k < 2 * n; ++k) {
+      std::this_thread::sleep_for(duration<double>(moment(random)));
+      auto& program = programs[random() % programs.size()];
+      program->send(SIGKILL);
+      const int code = program->wait();
+      EXPECT_TRUE(code == -SIGKILL || code == exit_done) << program->printed();
+      program = std::make_unique<Program>(place, work);
+    }
+    for (auto& program : programs) EXPECT_EQ(program->wait(), exit_done) << program->printed();
+  }
+
+  const std::vector<std::string> work{"designs", "all", "--threads", "1"};
+};
+
+TEST_F(SharedPlan, IsTheSameForAnyNumberOfProcessesAndDeaths) {
+  const fs::path straight = workplace("straight", designs_to_explore);
+  const auto start = steady_clock::now();
+  Program one(straight, {"explore", "case.toml", "--starts", "4", "--output", "all", "--threads", "1"});
+  ASSERT_EQ(one.wait(), exit_done) << one.printed();
+  const double whole = duration<double>(steady_clock::now() - start).count();
+  const auto expected = results_of_designs(straight / "all");
+  ASSERT_TRUE(expected.contains("explore.json") && expected.contains("001.preview.json"));
+  ASSERT_TRUE(expected.contains("001.toml") && expected.contains("001/history.csv"));
+  std::mt19937 random(1);
+  for (int n = 1; n <= 4; ++n) {
+    const fs::path place = planned(fmt::format("shared-{}", n));
+    run_and_kill(place, n, whole, random);
+    const auto found = results_of_designs(place / "all");
+    EXPECT_EQ(found.size(), expected.size());
+    for (const auto& [name, text] : expected) {
+      ASSERT_TRUE(found.contains(name)) << name;
+      EXPECT_TRUE(found.at(name) == text) << name << ": " << first_difference(text, found.at(name));
+    }
+  }
+}
+
+// As jobs of a batch system do: one per design, in any order, again until nothing is due, and one that
+// collects.
+TEST_F(SharedPlan, ConsistsOfStepsForABatchSystem) {
+  const fs::path straight = workplace("straight", designs_to_explore), place = planned("jobs");
+  Program one(straight, {"explore", "case.toml", "--starts", "4", "--output", "all", "--threads", "1"});
+  ASSERT_EQ(one.wait(), exit_done) << one.printed();
+  Program early(place, {"designs", "all", "--collect"});
+  EXPECT_EQ(early.wait(), exit_no_solution) << early.printed();
+  EXPECT_NE(early.printed().find("001, 002, 003, 004"), std::string::npos) << early.printed();
+  for (int round = 0; round < 4; ++round)
+    for (const char* number : {"4", "2", "1", "3"}) {
+      Program job(place, {"designs", "all", "--only", number, "--threads", "1"});
+      ASSERT_EQ(job.wait(), exit_done) << job.printed();
+    }
+  ASSERT_EQ(Program(place, {"designs", "all", "--collect"}).wait(), exit_done);
+  EXPECT_EQ(results_of_designs(place / "all"), results_of_designs(straight / "all"));
+}
+
+TEST_F(SharedPlan, StopsAndContinuesLater) {
+  const fs::path place = planned("stopped");
+  Program job(place, {"designs", "all", "--only", "2", "--threads", "1"});
+  wait_until([&] { return last_accepted(place / "all/designs/002") >= 2; });
+  job.send(SIGSTOP);
+  EXPECT_EQ(Program(place, {"designs", "all", "--only", "2"}).wait(), exit_refused);
+  job.send(SIGTERM);
+  job.send(SIGCONT);
+  EXPECT_EQ(job.wait(), exit_terminated) << job.printed();
+  EXPECT_FALSE(fs::exists(place / "all/designs/002.preview.json"));
+  EXPECT_GE(newest_good(place / "all/designs/002"), 2);
+  EXPECT_EQ(Program(place, {"designs", "all", "--only", "2"}).wait(), exit_done);
+  EXPECT_TRUE(fs::exists(place / "all/designs/002.preview.json"));
+}
 
 TEST_F(Killed, AtRandomMomentsLosesAtMostOneInterval) { kill_at_random_moments(6, small_case(12)); }
 

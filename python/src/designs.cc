@@ -27,11 +27,9 @@ std::vector<RankedQuantity> chosen(const Case& c, const std::vector<std::string>
   return result;
 }
 
-/// designs.json of designs that work(settings) has run; (design, result) of each as it is done. A callback
-/// that raises, and Ctrl-C, stop the runs, which are saved.
-template <class Work>
-std::string ranked_designs(const Case& c, const std::string& folder, const std::string& name, int threads,
-                           const std::vector<RankedQuantity>& quantities, const Work& work) {
+/// NAME.json of the designs of a plan, which are run in its folder. A callback that raises, and Ctrl-C, stop
+/// the runs, which are saved.
+std::string ranked_designs(const std::string& folder, const DesignPlan& plan, int threads) {
   Signals signals;
   std::optional<std::vector<RatedDesign>> designs;
   {
@@ -40,12 +38,11 @@ std::string ranked_designs(const Case& c, const std::string& folder, const std::
     RunSettings settings;
     settings.threads = threads;
     settings.stop_requested = [&signals] { return signals.raised(); };
-    designs.emplace(work(settings));
+    settings.waits = [](const Design&, const FolderInUse&) { return true; };
+    designs.emplace(run_planned(folder, plan, settings));
   }
   signals.rethrow();
-  return without_gil([&] {
-    return designs_json(write_designs(folder, name, *designs, quantities, run_title(c)), quantities);
-  });
+  return without_gil([&] { return designs_json(write_designs(folder, plan, *designs), plan.quantities); });
 }
 
 std::string explored(const HeldCase& held, const std::string& folder, int starts, std::uint64_t seed,
@@ -55,9 +52,13 @@ std::string explored(const HeldCase& held, const std::string& folder, int starts
     return planned_designs(held.value, {starts, seed, keeps_sectors, quantities},
                            {.must_end = [&] { return interrupt.requested(); }});
   });
-  return ranked_designs(
-      held.value, folder, "exploration", threads, quantities,
-      [&](const RunSettings& settings) { return explore(folder, designs, quantities, settings); });
+  return ranked_designs(folder,
+                        {.name = "exploration",
+                         .title = run_title(held.value),
+                         .has_previews = true,
+                         .quantities = quantities,
+                         .designs = designs},
+                        threads);
 }
 
 std::string swept(const HeldCase& held, const std::string& folder,
@@ -68,8 +69,10 @@ std::string swept(const HeldCase& held, const std::string& folder,
   for (const auto& [key, values] : keys) swept.push_back({key, values});
   const auto designs = sweep_designs(held.value, held.given_cells, held.file, swept);
   if (!designs) throw py::value_error(designs.failure().text);
-  return ranked_designs(held.value, folder, "sweep", threads, quantities,
-                        [&](const RunSettings& settings) { return run_all(folder, *designs, settings); });
+  return ranked_designs(
+      folder,
+      {.name = "sweep", .title = run_title(held.value), .quantities = quantities, .designs = *designs},
+      threads);
 }
 
 }  // namespace

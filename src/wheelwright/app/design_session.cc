@@ -4,7 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <thread>
 
 #include "wheelwright/app/exit_code.h"
@@ -12,15 +16,8 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/parallel.h"
-#include "wheelwright/base/stopwatch.h"
-#include "wheelwright/case/layers.h"
-#include "wheelwright/files/atomic_file.h"
-#include "wheelwright/files/file_content.h"
-#include "wheelwright/files/path_queries.h"
-#include "wheelwright/files/written_files.h"
 #include "wheelwright/output/report/value_with_error.h"
 #include "wheelwright/run/results/finer_wheel.h"
-#include "wheelwright/run/results/run_title.h"
 #include "wheelwright/run/results/stop_text.h"
 #include "wheelwright/run/study/problem_size.h"
 
@@ -29,59 +26,57 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* settings_file = "settings.txt";
 constexpr int printed_rows = 12;
 
-std::vector<std::string> words(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
+/// The case of the design that needs the most memory.
+const Case& largest(const std::vector<Design>& designs) {
+  return std::ranges::max_element(
+             designs, {}, [](const Design& one) { return estimated_memory(problem_size(one.source)); })
+      ->source;
+}
+
+/// As many threads as the memory allows, one for each design of `bytes`.
+int threads_within_memory(int threads, double bytes) {
+  const auto available = available_memory();
+  return available ? std::clamp(static_cast<int>(*available / bytes), 1, threads) : threads;
+}
+
+/// Waits for other processes that collect.
+std::optional<FolderLock> lock_to_collect(const fs::path& folder, const Signals& signals) {
+  while (!signals.stop()) {
+    if (auto lock = FolderLock::acquire(folder)) return *std::move(lock);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  return parts;
+  return {};
 }
 
-/// The part of a word before " of ", which names a quantity of a layer.
-std::string_view quantity_in(std::string_view word) { return word.substr(0, word.find(" of ")); }
-
-std::string check_quantities(const std::string& text) {
-  std::vector<std::string_view> known;
-  for (const RankedQuantity& quantity : ranked_quantities()) known.push_back(quantity.word);
-  for (const std::string& word : words(text))
-    if (!find_quantity(quantity_in(word)))
-      return fmt::format("'{}' is none of {}", word, fmt::join(known, ", "));
-  return "";
+/// Waits for designs that others run; tells so once for each.
+std::function<bool(const Design&, const FolderInUse&)> waiting() {
+  // Asked for the first time, there may be other designs to run in the meantime.
+  return [n_asked = std::map<std::string, int>(), mutex = std::make_shared<std::mutex>()](
+             const Design& design, const FolderInUse& holder) mutable {
+    const std::scoped_lock lock(*mutex);
+    if (++n_asked[design.name] == 2)
+      print_err("{} {}: {} is running it; waiting for its result\n", design.name, design.text,
+                to_string(holder));
+    return true;
+  };
 }
 
-/// Why designs of a case are not ranked by a word that may be one of others.
-std::string fault_of_word(const Case& c, const std::string& word, const std::vector<RankedQuantity>& known) {
-  const auto needs = unmet_needs_of_ranked(c, quantity_in(word));
-  if (!needs.empty()) return fmt::format("{}; set {}", needs.front().problem, needs.front().key.path());
-  std::vector<std::string_view> words;
-  for (const RankedQuantity& quantity : known) words.push_back(quantity.word);
-  return fmt::format("'{}' is none of {}", word, fmt::join(words, ", "));
-}
-
-/// The ranked quantity that corresponds to the minimized one.
-const RankedQuantity* ranked_as_minimized(const Case& c, const std::vector<RankedQuantity>& known) {
-  Quantity minimized = minimized_quantity(c);
-  if (minimized == built_in("peak_von_mises_inside")) minimized = built_in("peak_von_mises");
-  const auto found = std::ranges::find(known, number_key(minimized, 2), &RankedQuantity::key);
-  return found == known.end() ? nullptr : &*found;
+/// The names of designs, not all if they are many.
+std::string names(const std::vector<Design>& designs) {
+  constexpr std::size_t max_shown = 20;
+  std::vector<std::string_view> shown;
+  for (const Design& one : designs)
+    if (shown.size() < max_shown) shown.push_back(one.name);
+  return fmt::format(
+      "{}{}", fmt::join(shown, ", "),
+      designs.size() > max_shown ? fmt::format(" and {} more", designs.size() - max_shown) : "");
 }
 
 }  // namespace
 
-void DesignOptions::declare(Options& options) {
-  add_output(options, output, "Folder for the results, instead of the case's output.folder with a suffix");
-  std::vector<std::string> known;
-  for (const RankedQuantity& quantity : ranked_quantities())
-    known.push_back(fmt::format("{} [{}]", quantity.word, quantity.shown.name));
-  options.text("--for", "QUANTITY,...", quantities, check_quantities,
-               fmt::format("Quantities by which designs are ranked and plotted; default: what the case "
-                           "minimizes, or stiffness, and run_out; known: {}",
-                           fmt::join(known, ", ")));
+void WorkOptions::declare(Options& options) {
   constexpr int max_seconds = 10'000'000;
   options.number("--seconds", seconds, {1, max_seconds},
                  "Start no further design after this time; default: no limit");
@@ -90,113 +85,39 @@ void DesignOptions::declare(Options& options) {
   add_threads(options, threads);
 }
 
-Expected<std::vector<RankedQuantity>, std::string> DesignOptions::chosen_quantities(const Case& c) const {
-  const std::vector<RankedQuantity> known = ranked_quantities(c);
-  const auto of_word = [&](std::string_view word) {
-    return std::ranges::find(known, word, &RankedQuantity::word);
-  };
-  std::vector<RankedQuantity> chosen;
-  if (quantities) {
-    for (const std::string& word : words(*quantities)) {
-      const auto found = of_word(word);
-      if (found == known.end()) return fault_of_word(c, word, known);
-      chosen.push_back(*found);
-    }
-    return chosen;
-  }
-  const RankedQuantity* minimized = ranked_as_minimized(c, known);
-  chosen.push_back(minimized ? *minimized : *of_word("stiffness"));
-  const std::string_view evenness = c.load.travel ? "force_variation" : "run_out";
-  if (chosen.front().word != evenness) chosen.push_back(*of_word(evenness));
-  return chosen;
-}
-
-int DesignOptions::n_threads() const {
+int WorkOptions::n_threads() const {
   return threads.value_or(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
-DesignSession::DesignSession(std::string name, fs::path folder, const DesignOptions& options, const Case& c,
-                             const Signals& signals, std::vector<RankedQuantity> quantities,
-                             std::string settings)
-    : name_(std::move(name)),
-      folder_(std::move(folder)),
+DesignSession::DesignSession(fs::path folder, DesignPlan plan, const WorkOptions& options,
+                             const Signals& signals, const Stopwatch& watch)
+    : folder_(std::move(folder)),
+      plan_(std::move(plan)),
       options_(options),
-      case_(c),
       signals_(signals),
-      settings_(std::move(settings)),
-      quantities_(std::move(quantities)) {}
-
-bool DesignSession::may_begin() {
-  const std::string csv = name_ + ".csv", json = name_ + ".json", html = name_ + ".html";
-  const std::string_view names[] = {csv,      json, html, pareto_picture, settings_file, folder_of_designs,
-                                    lock_file};
-  const auto foreign = WrittenFiles(folder_).foreign(names);
-  if (!foreign.empty()) {
-    print_err(
-        "{}: {}: already exists, and was not written by this program; choose another folder with --output\n",
-        folder_.string(), fmt::format("{}", fmt::join(foreign, ", ")));
-    return false;
-  }
-  auto lock = FolderLock::acquire(folder_);
-  if (!lock) {
-    print_err("{}: {} is writing to this folder; wait for it, or choose another folder with --output\n",
-              folder_.string(), to_string(lock.failure()));
-    return false;
-  }
-  if (is_there(folder_ / settings_file) && file_content(folder_ / settings_file) != settings_) {
-    print_err(
-        "{}: contains designs of another case or of other options, according to its {}; choose another "
-        "folder with "
-        "--output, or remove this one\n",
-        folder_.string(), settings_file);
-    return false;
-  }
-  lock_.emplace(*std::move(lock));
-  write_atomically(folder_ / settings_file, settings_);
-  return true;
-}
+      watch_(watch) {}
 
 bool DesignSession::is_time_over() const { return options_.seconds && watch_.seconds() >= *options_.seconds; }
 
-DrawingSettings DesignSession::drawing_settings(int n_starts) const {
-  constexpr double seconds_between = 2;
-  DrawingSettings settings;
-  settings.must_end = [this] { return signals_.stop() || is_time_over(); };
-  settings.report = [n_starts, last = Stopwatch()](const DrawingProgress& progress) mutable {
-    const bool is_complete = progress.n_starts == n_starts;
-    if (progress.has_ended ? is_complete : last.seconds() < seconds_between) return;
-    last.lap();
-    const std::string failed = to_string(progress.failed);
-    print_err("starts generated: {} of {}{}{}\n", progress.n_starts, n_starts, failed.empty() ? "" : "; ",
-              failed);
-  };
-  return settings;
-}
+bool DesignSession::has_finalists() const { return plan_.solves_finalists && !options_.without_errors; }
 
-RunSettings DesignSession::run_settings(std::size_t n_designs) const {
+RunSettings DesignSession::run_settings() {
   RunSettings settings;
-  settings.threads = options_.n_threads();
-  if (const auto available = available_memory())
-    settings.threads =
-        std::clamp(static_cast<int>(*available / estimated_memory(problem_size(case_))), 1, settings.threads);
+  settings.threads =
+      threads_within_memory(options_.n_threads(), estimated_memory(problem_size(largest(plan_.designs))));
   settings.stop_requested = [this] { return signals_.stop().has_value(); };
   settings.may_begin = [this] { return !is_time_over(); };
-  settings.done = [this, n_designs, n_done = 0](const Design& design, const DesignResult& result) mutable {
-    print_err("{:>3}/{}  ", ++n_done, n_designs);
-    show(design, result);
-  };
+  settings.done = [this](const Design& design, const DesignResult& result) { show(design, result); };
   settings.left_out = [](const Design& design, const std::string& why) {
     print_err("{} {}: left out: {}\n", design.name, design.text, why);
   };
   return settings;
 }
 
-FinalistSettings DesignSession::finalist_settings() const {
+FinalistSettings DesignSession::finalist_settings() {
   FinalistSettings settings;
-  settings.threads = options_.n_threads();
-  if (const auto available = available_memory())
-    settings.threads =
-        std::clamp(static_cast<int>(*available / memory_on_finer_grid<2>(case_)), 1, settings.threads);
+  settings.threads =
+      threads_within_memory(options_.n_threads(), memory_on_finer_grid<2>(largest(plan_.designs)));
   settings.stop_requested = [this] { return signals_.stop().has_value(); };
   settings.begin = [](const std::vector<RatedDesign>& designs, double seconds) {
     print_err("solving {} on a finer grid, which takes about {:.0f} s\n",
@@ -209,7 +130,7 @@ FinalistSettings DesignSession::finalist_settings() const {
 
 void DesignSession::show_finalist(const RatedDesign& finalist) const {
   std::string numbers;
-  for (const RankedQuantity& quantity : quantities_)
+  for (const RankedQuantity& quantity : plan_.quantities)
     if (const auto error = finalist.error(quantity.key))
       numbers += fmt::format(", {} {} {}", quantity.word,
                              text_with_error(finalist.value(quantity.key) * quantity.shown.factor,
@@ -221,7 +142,7 @@ void DesignSession::show_finalist(const RatedDesign& finalist) const {
 
 void DesignSession::show(const Design& design, const DesignResult& result) const {
   std::string numbers;
-  for (const RankedQuantity& quantity : quantities_)
+  for (const RankedQuantity& quantity : plan_.quantities)
     if (!result.numbers.empty())
       numbers += fmt::format(", {} {:.5g} {}", quantity.word, result.value(quantity) * quantity.shown.factor,
                              quantity.shown.name);
@@ -229,14 +150,74 @@ void DesignSession::show(const Design& design, const DesignResult& result) const
             numbers);
 }
 
-int DesignSession::run(std::size_t n_designs, const Work& work) const {
+int DesignSession::run() {
   const ThreadLimit one_thread_each(1);
-  std::vector<RatedDesign> designs = work(run_settings(n_designs));
-  if (const auto signal = signals_.stop()) return end_of_stopped(!designs.empty(), *signal);
-  if (!options_.without_errors && case_.output.errors == ErrorEstimates::estimated)
-    designs = with_finer_numbers(folder_, std::move(designs), quantities_, finalist_settings());
-  if (const auto signal = signals_.stop()) return end_of_stopped(!designs.empty(), *signal);
-  const auto order = write_designs(folder_, name_, designs, quantities_, run_title(case_));
+  RunSettings settings = run_settings();
+  FinalistSettings on_finer_grid = finalist_settings();
+  settings.waits = on_finer_grid.waits = waiting();
+  std::vector<RatedDesign> designs = run_planned(folder_, plan_, settings);
+  if (has_finalists() && !signals_.stop())
+    designs = with_finer_numbers(folder_, designs, plan_.quantities, on_finer_grid);
+  if (const auto signal = signals_.stop())
+    return designs.empty() ? end_of_stopped(exit_nothing_saved) : end_of_stopped(128 + *signal);
+  return write(designs);
+}
+
+int DesignSession::run_only(const std::string& name) {
+  const ThreadLimit one_thread_each(1);
+  bool is_left_out = false;
+  RunSettings settings = run_settings();
+  settings.left_out = [&, report = settings.left_out](const Design& design, const std::string& why) {
+    is_left_out = true;
+    report(design, why);
+  };
+  for (int n_done = 0; !is_left_out && !signals_.stop() && !is_time_over(); ++n_done) {
+    if (run_next_step(name, settings)) continue;
+    if (n_done == 0) print_err("{}: nothing is due for it now\n", name);
+    return exit_done;
+  }
+  if (const auto signal = signals_.stop()) return end_of_stopped(128 + *signal);
+  return is_left_out ? exit_refused : exit_done;
+}
+
+bool DesignSession::run_next_step(const std::string& name, const RunSettings& settings) {
+  const Standing now = standing(folder_, plan_);
+  const auto due = std::ranges::find(now.due, name, &Design::name);
+  if (due != now.due.end()) {
+    run_designs(folder_, {*due}, now.progression, settings);
+    return true;
+  }
+  if (!now.due.empty() || !has_finalists()) return false;
+  const auto finalists = standing_of_finalists(folder_, now.designs, plan_.quantities);
+  for (const int i : finalists.due) {
+    const RatedDesign& one = finalists.designs[i];
+    if (one.design.name != name) continue;
+    return solve_on_finer_grid(folder_, {one}, finalist_settings()).empty();
+  }
+  return false;
+}
+
+int DesignSession::collect() {
+  const Standing now = standing(folder_, plan_);
+  std::vector<RatedDesign> designs = now.designs;
+  if (!now.due.empty()) {
+    print_err("{} of {} designs have not ended: {}{}\n", now.due.size(), plan_.designs.size(), names(now.due),
+              now.progression == Progression::preview
+                  ? "; some are optimized to the end when all previews are there"
+                  : "");
+  } else if (has_finalists()) {
+    StandingOfFinalists finalists = standing_of_finalists(folder_, designs, plan_.quantities);
+    if (!finalists.due.empty())
+      print_err("{} finalists are not solved on a finer grid yet\n", finalists.due.size());
+    designs = std::move(finalists.designs);
+  }
+  return write(designs);
+}
+
+int DesignSession::write(const std::vector<RatedDesign>& designs) {
+  const auto lock = lock_to_collect(folder_, signals_);
+  if (!lock) return end_of_stopped(128 + *signals_.stop());
+  const auto order = write_designs(folder_, plan_, designs);
   print_results(order);
   if (std::ranges::any_of(order, [](const RankedDesign& one) { return one.front > 0; })) return exit_done;
   const bool any_result =
@@ -244,37 +225,24 @@ int DesignSession::run(std::size_t n_designs, const Work& work) const {
   return any_result ? exit_infeasible : exit_no_solution;
 }
 
-int DesignSession::end_of_stopped(bool has_designs, int signal) const {
+int DesignSession::end_of_stopped(int code) const {
   print_err("stopped and saved; to continue, give the same command again\n");
-  return has_designs ? 128 + signal : exit_nothing_saved;
+  return code;
 }
 
 void DesignSession::print_results(const std::vector<RankedDesign>& order) const {
-  print_lines(stdout, designs_table(order, quantities_, printed_rows));
+  print_lines(stdout, designs_table(order, plan_.quantities, printed_rows));
   print("\n{} designs, *: no other design is better in all quantities\n", order.size());
   const auto n_finer = std::ranges::count_if(
       order, [](const RankedDesign& one) { return one.finer && one.finer->failure.empty(); });
   if (n_finer > 0) print("numbers with an error (+-) are those of a finer grid, of {} finalists\n", n_finer);
-  for (const UndecidedDesigns& undecided : undecided_designs(order, quantities_))
+  for (const UndecidedDesigns& undecided : undecided_designs(order, plan_.quantities))
     print("{}\n", text(undecided));
-  for (const auto& [file, meaning] : {std::pair{name_ + ".html", "all designs, for a browser"},
+  for (const auto& [file, meaning] : {std::pair{plan_.name + ".html", "all designs, for a browser"},
                                       {std::string(pareto_picture), "the picture"},
-                                      {name_ + ".csv", "the numbers, also as .json"},
+                                      {plan_.name + ".csv", "the numbers, also as .json"},
                                       {std::string(folder_of_designs), "one run per design"}})
     print("  {:<36} {}\n", (folder_ / file).string(), meaning);
-}
-
-bool is_plane_or_report(const std::string& command, const Case& c, const std::string& file) {
-  if (c.wheel.dimension == 2) return true;
-  print_err(
-      "wheelwright {}: {}: this command tries many designs, each of which takes minutes to hours in 3D; set "
-      "wheel.dimension = 2, and start a case in 3D from the best design, by [shape] from\n",
-      command, file);
-  return false;
-}
-
-fs::path folder_for(const DesignOptions& options, const Case& c, const std::string& ending) {
-  return options.output ? fs::path(*options.output) : fs::path(c.output.folder + ending);
 }
 
 }  // namespace wheelwright

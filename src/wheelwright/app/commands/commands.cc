@@ -8,6 +8,7 @@ namespace wheelwright {
   apply(resume);                    \
   apply(explore);                   \
   apply(sweep);                     \
+  apply(designs);                   \
   apply(analyze);                   \
   apply(compare);                   \
   apply(watch);                     \

@@ -7,6 +7,7 @@
 
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/design_folder.h"
 #include "wheelwright/app/design_session.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/number_list.h"
@@ -14,6 +15,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/run/results/run_title.h"
 
 namespace wheelwright {
 namespace {
@@ -42,7 +44,8 @@ class SweepCommand : public Subcommand {
                                   "'constraint[1].at_least=6000,7000 "
                                   "N/mm'; each is {}",
                                   form));
-    options_.declare(options);
+    plan_.declare(options);
+    work_.declare(options);
   }
 
   int run() override {
@@ -59,32 +62,46 @@ class SweepCommand : public Subcommand {
     const auto c = read_or_report(case_file_);
     if (!c) return exit_usage;
     if (!is_plane_or_report(name(), *c, case_file_)) return exit_refused;
-    const auto designs = sweep_designs(*c, read_case(case_file_).given_cells, case_file_, keys);
+    auto designs = sweep_designs(*c, read_case(case_file_).given_cells, case_file_, keys);
     if (!designs) {
       print_err("wheelwright {}: {}\n", name(), designs.failure().text);
       return exit_usage;
     }
-    if (!may_compute(name(), *c, case_file_, options_.threads)) return exit_refused;
-    return run_designs(*c, *designs, signals);
+    if (!may_compute(name(), *c, case_file_, work_.threads)) return exit_refused;
+    return run_designs(*c, *std::move(designs), signals);
   }
 
  private:
-  int run_designs(const Case& c, const std::vector<Design>& designs, const Signals& signals) const {
-    const auto quantities = options_.chosen_quantities(c);
+  int run_designs(const Case& c, std::vector<Design> designs, const Signals& signals) const {
+    const auto quantities = plan_.chosen_quantities(c);
     if (!quantities) {
       print_err("wheelwright {}: --for: {}\n", name(), quantities.failure());
       return exit_usage;
     }
-    const auto folder = folder_for(options_, c, "-sweep");
-    std::string settings = fmt::format("{}\n\n", fmt::join(texts_, "\n")) + to_toml(c);
-    DesignSession session(name(), folder, options_, c, signals, *quantities, std::move(settings));
-    if (!session.may_begin()) return exit_refused;
-    return session.run(designs.size(), [&](const RunSettings& how) { return run_all(folder, designs, how); });
+    const DesignFolder place{name(), plan_.folder_for(c, "-sweep"),
+                             fmt::format("{}\n\n", fmt::join(texts_, "\n")) + to_toml(c)};
+    if (!place.may_be_used()) return exit_refused;
+    auto plan = place.known_plan(*quantities);
+    if (!plan) {
+      auto planned = place.planned([&]() -> Expected<DesignPlan, int> {
+        return DesignPlan{.name = name(),
+                          .title = run_title(c),
+                          .solves_finalists = c.output.errors == ErrorEstimates::estimated,
+                          .quantities = *quantities,
+                          .designs = std::move(designs)};
+      });
+      if (!planned) return planned.failure();
+      plan = *std::move(planned);
+    }
+    if (plan_.only_plans) return print_plan(place.folder, *plan), exit_done;
+    return DesignSession(place.folder, *std::move(plan), work_, signals, watch_).run();
   }
 
   std::string case_file_;
   std::vector<std::string> texts_;
-  DesignOptions options_;
+  PlanOptions plan_;
+  WorkOptions work_;
+  Stopwatch watch_;
 };
 
 }  // namespace

@@ -9,10 +9,11 @@
 #include <variant>
 
 #include "wheelwright/case/layers.h"
-#include "wheelwright/design/explore/workers.h"
+#include "wheelwright/design/explore/shared_work.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/file_content.h"
 #include "wheelwright/files/path_queries.h"
+#include "wheelwright/files/written_files.h"
 #include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/run/checkpoints/own_drawings.h"
 #include "wheelwright/run/session/run.h"
@@ -28,15 +29,6 @@ constexpr int shapes_of_preview = 15;
 fs::path result_file(const fs::path& designs, const Design& design, Progression progression) {
   return designs /
          fmt::format("{}.{}.json", design.name, progression == Progression::full ? "full" : "preview");
-}
-
-std::optional<DesignResult> known_result(const fs::path& file) {
-  if (!is_there(file)) return {};
-  try {
-    return design_result(file_content(file));
-  } catch (const nlohmann::json::exception&) {
-    return {};  // computed again
-  }
 }
 
 /// Stops a run once, on request.
@@ -61,10 +53,8 @@ class EndOfPreview : public Observer<2> {
 
   void operator()(const Event<2>& event, const RunView<2>& run) override {
     if (const auto* started = std::get_if<RunStarted>(&event); started && started->resumed_after)
-      has_changed_grid_ =
-          run.study.level == 0 && run.study.source.optimizer.coarse_levels > 0 && *started->resumed_after > 0;
+      resume_after(*started->resumed_after, run);
     if (std::holds_alternative<GridChanged>(event)) has_changed_grid_ = true;
-    if (std::holds_alternative<RunStarted>(event) && has_changed_grid_) end();
     const auto* done = std::get_if<TrialDone<2>>(&event);
     if (!done || done->trial.verdict != Verdict::accepted || run.study.level > 0 || is_over_) return;
     if (has_changed_grid_ || done->state.iteration >= shapes_of_preview) end();
@@ -73,6 +63,13 @@ class EndOfPreview : public Observer<2> {
   bool is_over() const { return is_over_; }
 
  private:
+  /// A process may have died after the last shape of the preview, and before its result was stored.
+  void resume_after(int shape, const RunView<2>& run) {
+    if (run.study.level > 0 || shape == 0) return;
+    has_changed_grid_ = run.study.source.optimizer.coarse_levels > 0;
+    if (has_changed_grid_ || shape >= shapes_of_preview) end();
+  }
+
   void end() {
     is_over_ = true;
     commands_.push(Stop{});
@@ -116,19 +113,20 @@ void read_summary(const fs::path& folder, const Case& c, DesignResult& result) {
         if (value.is_number()) numbers[key_in_case(key, load_case)] = value.template get<double>();
 }
 
-/// Why a design's folder cannot be used.
-std::string fault_of_folder(const NotBegun<2>& reason, const fs::path& folder) {
-  if (const auto* in_use = std::get_if<FolderInUse>(&reason))
-    return fmt::format("{} is writing to {}", to_string(*in_use), folder.string());
-  return fmt::format("{} cannot be used: its files belong to another design, or are corrupted",
-                     folder.string());
-}
-
-/// The outcome of a design's run: a result, or why its folder cannot be used; neither if it was stopped.
+/// The outcome of a design's run: a result, or who is writing to its folder, or why that cannot be used; none
+/// of these if it was stopped.
 struct DesignRun {
-  std::optional<DesignResult> result;
-  std::string fault;
+  std::optional<DesignResult> result = {};
+  std::optional<FolderInUse> holder = {};
+  std::string fault = {};
 };
+
+/// The outcome if the folder cannot be used.
+DesignRun without_folder(const NotBegun<2>& reason, const fs::path& folder) {
+  if (const auto* in_use = std::get_if<FolderInUse>(&reason)) return {.holder = *in_use};
+  return {.fault = fmt::format("{} cannot be used: its files belong to another design, or are corrupted",
+                               folder.string())};
+}
 
 Expected<Run<2>, NotBegun<2>> begun_or_resumed(const Design& design, const fs::path& folder) {
   if (is_there(folder / "case.toml")) return Run<2>::resume(with_own_drawings(design.source), folder);
@@ -156,47 +154,108 @@ DesignRun run_design(const Design& design, const fs::path& folder, Progression p
     result.status = to_string(*finished->end.finished);
   } else if (const auto* failure = std::get_if<Failure>(&run.failure())) {
     result.status = to_string(failure->reason);
-    return {result, ""};
+    return {.result = result};
   } else {
-    return {{}, fault_of_folder(run.failure(), folder)};
+    return without_folder(run.failure(), folder);
   }
   read_summary(folder, design.source, result);
-  return {result, ""};
+  return {.result = result};
 }
 
+/// Runs designs one by one, while others may run the same ones.
+class SharedRuns {
+ public:
+  SharedRuns(const fs::path& folder, const std::vector<Design>& designs, Progression progression,
+             const RunSettings& settings)
+      : folder_(folder),
+        designs_(designs),
+        progression_(progression),
+        settings_(settings),
+        results_(designs.size()) {}
+
+  /// Returns who keeps the design from being run.
+  std::optional<FolderInUse> run(int i) {
+    const Design& design = designs_[i];
+    if (const auto known = known_result(folder_, design, progression_)) return add(i, *known), std::nullopt;
+    if (settings_.stop_requested() || !settings_.may_begin()) return {};
+    const fs::path place = folder_ / folder_of_designs;
+    const DesignRun run = run_design(design, place / design.name, progression_, settings_.stop_requested);
+    if (!run.fault.empty()) leave_out(i, run.fault);
+    if (!run.result) return run.holder;
+    write_atomically(result_file(place, design, progression_), to_json(*run.result));
+    add(i, *run.result);
+    return {};
+  }
+
+  /// Whether to wait for the process that keeps a design from being run.
+  bool waits(int i, const FolderInUse& holder) {
+    if (settings_.stop_requested() || !settings_.may_begin()) return false;
+    if (settings_.waits(designs_[i], holder)) return true;
+    leave_out(i, fmt::format("{} is writing to {}", to_string(holder),
+                             (folder_ / folder_of_designs / designs_[i].name).string()));
+    return false;
+  }
+
+  std::vector<std::optional<DesignResult>> results() { return std::move(results_); }
+
+ private:
+  void add(int i, const DesignResult& result) {
+    const std::scoped_lock lock(mutex_);
+    settings_.done(designs_[i], result);
+    results_[i] = result;
+  }
+
+  void leave_out(int i, const std::string& why) {
+    const std::scoped_lock lock(mutex_);
+    settings_.left_out(designs_[i], why);
+  }
+
+  const fs::path& folder_;
+  const std::vector<Design>& designs_;
+  Progression progression_;
+  const RunSettings& settings_;
+  std::vector<std::optional<DesignResult>> results_;
+  std::mutex mutex_;
+};
+
 }  // namespace
+
+std::optional<DesignResult> known_result(const fs::path& folder, const Design& design,
+                                         Progression progression) {
+  const fs::path file = result_file(folder / folder_of_designs, design, progression);
+  if (!is_there(file)) return {};
+  try {
+    return design_result(file_content(file));
+  } catch (const nlohmann::json::exception&) {
+    return {};  // computed again
+  }
+}
+
+fs::path lock_of_design(const fs::path& folder, const Design& design) {
+  return folder / folder_of_designs / (design.name + ".lock");
+}
+
+void prepare_designs(const fs::path& folder, const std::vector<Design>& designs) {
+  const fs::path place = folder / folder_of_designs;
+  make_subfolder(place);
+  WrittenFiles list(place);
+  for (const Design& design : designs) {
+    for (const char* ending : {"toml", "lock", "preview.json", "full.json", "finer.json"})
+      list.claim_file(fmt::format("{}.{}", design.name, ending));
+    make_subfolder(place / design.name);
+  }
+}
 
 std::vector<std::optional<DesignResult>> run_designs(const fs::path& folder,
                                                      const std::vector<Design>& designs,
                                                      Progression progression, const RunSettings& settings) {
-  const fs::path place = folder / folder_of_designs;
-  make_subfolder(place);
-  std::vector<std::optional<DesignResult>> results(designs.size());
-  std::mutex mutex;
-  on_threads(settings.threads, static_cast<int>(designs.size()), [&](int i) {
-    const Design& design = designs[i];
-    const fs::path file = result_file(place, design, progression);
-    std::optional<DesignResult> result = known_result(file);
-    if (!result) {
-      if (settings.stop_requested() || !settings.may_begin()) return;
-      {
-        const std::scoped_lock lock(mutex);
-        make_subfolder(place / design.name);
-      }
-      DesignRun run = run_design(design, place / design.name, progression, settings.stop_requested);
-      result = std::move(run.result);
-      if (!run.fault.empty()) {
-        const std::scoped_lock lock(mutex);
-        settings.left_out(design, run.fault);
-      }
-      if (!result) return;
-    }
-    const std::scoped_lock lock(mutex);
-    if (!is_there(file)) write_atomically(file, to_json(*result));
-    settings.done(design, *result);
-    results[i] = std::move(result);
-  });
-  return results;
+  prepare_designs(folder, designs);
+  SharedRuns runs(folder, designs, progression, settings);
+  share_work(settings.threads, static_cast<int>(designs.size()),
+             {.lock = [&](int i) { return lock_of_design(folder, designs[i]); },
+              .work = [&](int i) { return runs.run(i); },
+              .waits = [&](int i, const FolderInUse& holder) { return runs.waits(i, holder); }});
+  return runs.results();
 }
 
 }  // namespace wheelwright

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "wheelwright/design/explore/design.h"
+#include "wheelwright/run/checkpoints/folder_lock.h"
 
 namespace wheelwright {
 
@@ -20,15 +21,31 @@ struct RunSettings {
   std::function<bool()> may_begin = [] { return true; };
   /// Called with each result, by one thread at a time.
   std::function<void(const Design&, const DesignResult&)> done = [](const Design&, const DesignResult&) {};
-  /// Called for each design whose folder cannot be used, with the reason, by one thread at a time.
+  /// Called several times a second for each design that another process runs, by several threads: whether to
+  /// wait for its result.
+  std::function<bool(const Design&, const FolderInUse&)> waits = [](const Design&, const FolderInUse&) {
+    return false;
+  };
+  /// Called for each design that cannot be run, with the reason, by one thread at a time.
   std::function<void(const Design&, const std::string& why)> left_out = [](const Design&,
                                                                            const std::string&) {};
 };
 
+/// The stored result of a design in folder/designs; nothing if it was not run that far.
+std::optional<DesignResult> known_result(const std::filesystem::path& folder, const Design& design,
+                                         Progression progression);
+
+/// The file that a process locks while it works on a design of a folder.
+std::filesystem::path lock_of_design(const std::filesystem::path& folder, const Design& design);
+
+/// Makes the folder of the designs, with their subfolders, and lists all names that are written there, so
+/// that processes that share the work do not write to one list (files/written_files.h). Throws OutputError.
+void prepare_designs(const std::filesystem::path& folder, const std::vector<Design>& designs);
+
 /// Runs designs in folder/designs/NAME and returns their results, in their order; empty for those that were
-/// not started, were stopped, or whose folder cannot be used, for example because another process writes to
-/// it. Existing results are read, interrupted runs resumed, and previews continued to the end. Throws
-/// OutputError.
+/// not started, were stopped, or whose folder cannot be used. Existing results are read, interrupted runs
+/// resumed, and previews continued to the end. Other processes may do the same at the same time: each design
+/// is run by one of them, and the others wait for its result if the settings say so. Throws OutputError.
 std::vector<std::optional<DesignResult>> run_designs(const std::filesystem::path& folder,
                                                      const std::vector<Design>& designs,
                                                      Progression progression, const RunSettings& settings);

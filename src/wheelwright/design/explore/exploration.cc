@@ -67,14 +67,6 @@ std::string layers_in_outline(const Case& c) {
   return path;
 }
 
-std::vector<RatedDesign> rated(const std::vector<Design>& designs,
-                               const std::vector<std::optional<DesignResult>>& results) {
-  std::vector<RatedDesign> all;
-  for (std::size_t i = 0; i < designs.size(); ++i)
-    if (results[i]) all.push_back({designs[i], *results[i]});
-  return all;
-}
-
 }  // namespace
 
 namespace {
@@ -90,7 +82,7 @@ std::optional<double> volume_of_designs(const Case& c) {
 }
 
 /// The case's own shape and the random ones, as far as time permits.
-Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan& plan,
+Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationSettings& wanted,
                                             const DrawingSettings& settings) {
   const auto volume = volume_of_designs(c);
   if (!volume)
@@ -101,10 +93,11 @@ Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan
   if (has_holes(c)) starts.push_back({"the case's own shape", c});
   FailedAttempts failed;
   int without_start = 0;
-  for (int number = 0; static_cast<int>(starts.size()) < plan.starts && without_start < n_kinds_of_starts;
+  for (int number = 0; static_cast<int>(starts.size()) < wanted.starts && without_start < n_kinds_of_starts;
        ++number) {
     if (settings.must_end()) break;
-    DrawnStart drawing = draw_start(c, {*volume, plan.keeps_sectors}, plan.seed, number, settings.must_end);
+    DrawnStart drawing =
+        draw_start(c, {*volume, wanted.keeps_sectors}, wanted.seed, number, settings.must_end);
     without_start = drawing.start ? 0 : without_start + 1;
     failed += drawing.failed;
     if (drawing.start) starts.push_back(*std::move(drawing.start));
@@ -119,13 +112,13 @@ Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan
 
 }  // namespace
 
-Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan,
+Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationSettings& wanted,
                                               const DrawingSettings& settings) {
-  auto starts = planned_starts(c, plan, settings);
+  auto starts = planned_starts(c, wanted, settings);
   if (!starts) return starts.failure();
   double weight = 0;
   if (!starts->empty() && minimizes_weighted_sum(c) &&
-      std::ranges::any_of(plan.quantities, &RankedQuantity::is_of_evenness)) {
+      std::ranges::any_of(wanted.quantities, &RankedQuantity::is_of_evenness)) {
     const auto found = weight_of_evenness(starts->front().source);
     if (!found) return found.failure();
     weight = *found;
@@ -168,40 +161,76 @@ std::vector<int> nondominated_previews(const std::vector<RatedDesign>& designs,
 
 }  // namespace
 
-std::vector<RatedDesign> explore(const fs::path& folder, const std::vector<Design>& designs,
-                                 const std::vector<RankedQuantity>& quantities, const RunSettings& settings) {
-  std::vector<RatedDesign> all = rated(designs, run_designs(folder, designs, Progression::preview, settings));
-  std::set<int> tried;
-  for (auto chosen = chosen_designs(all, quantities); !chosen.empty() && !settings.stop_requested();
-       chosen = nondominated_previews(all, quantities, tried)) {
-    std::vector<Design> best;
-    for (const int i : chosen) best.push_back(all[i].design);
-    const auto results = run_designs(folder, best, Progression::full, settings);
-    for (std::size_t k = 0; k < chosen.size(); ++k)
-      if (results[k]) all[chosen[k]].result = *results[k];
-    tried.insert(chosen.begin(), chosen.end());
+namespace {
+
+/// Takes the known results of some of the rated designs that were chosen to run to the end. Returns the
+/// designs without one.
+std::vector<Design> take_full_results(const fs::path& folder, const std::vector<int>& chosen,
+                                      const IsGivenUp& is_given_up, std::vector<RatedDesign>& all) {
+  std::vector<Design> due;
+  for (const int i : chosen) {
+    if (const auto known = known_result(folder, all[i].design, Progression::full))
+      all[i].result = *known;
+    else if (!is_given_up(all[i].design, Progression::full))
+      due.push_back(all[i].design);
   }
-  return all;
+  return due;
 }
 
-std::vector<RatedDesign> run_all(const fs::path& folder, const std::vector<Design>& designs,
-                                 const RunSettings& settings) {
-  return rated(designs, run_designs(folder, designs, Progression::full, settings));
+/// All designs, of which nothing is known before.
+Standing first_standing(const fs::path& folder, const DesignPlan& plan, const IsGivenUp& is_given_up) {
+  Standing now{.designs = {}, .progression = plan.has_previews ? Progression::preview : Progression::full};
+  for (const Design& design : plan.designs) {
+    if (auto known = known_result(folder, design, now.progression))
+      now.designs.push_back({design, *std::move(known)});
+    else if (!is_given_up(design, now.progression))
+      now.due.push_back(design);
+  }
+  return now;
 }
 
-std::vector<RankedDesign> write_designs(const fs::path& folder, const std::string& name,
-                                        const std::vector<RatedDesign>& designs,
-                                        const std::vector<RankedQuantity>& quantities,
-                                        const std::string& title) {
-  std::vector<RankedDesign> order = ranked(designs, quantities);
+}  // namespace
+
+Standing standing(const fs::path& folder, const DesignPlan& plan, const IsGivenUp& is_given_up) {
+  Standing now = first_standing(folder, plan, is_given_up);
+  if (!plan.has_previews || !now.due.empty()) return now;
+  now.progression = Progression::full;
+  std::set<int> chosen_before;
+  for (auto chosen = chosen_designs(now.designs, plan.quantities); !chosen.empty();
+       chosen = nondominated_previews(now.designs, plan.quantities, chosen_before)) {
+    now.due = take_full_results(folder, chosen, is_given_up, now.designs);
+    if (!now.due.empty()) break;
+    chosen_before.insert(chosen.begin(), chosen.end());
+  }
+  return now;
+}
+
+std::vector<RatedDesign> run_planned(const fs::path& folder, const DesignPlan& plan,
+                                     const RunSettings& settings) {
+  std::set<std::pair<std::string, Progression>> tried;
+  const IsGivenUp was_tried = [&](const Design& design, Progression progression) {
+    return tried.contains({design.name, progression});
+  };
+  Standing now = standing(folder, plan, was_tried);
+  while (!now.due.empty() && !settings.stop_requested()) {
+    run_designs(folder, now.due, now.progression, settings);
+    for (const Design& design : now.due) tried.insert({design.name, now.progression});
+    now = standing(folder, plan, was_tried);
+  }
+  return now.designs;
+}
+
+std::vector<RankedDesign> write_designs(const fs::path& folder, const DesignPlan& plan,
+                                        const std::vector<RatedDesign>& designs) {
+  std::vector<RankedDesign> order = ranked(designs, plan.quantities);
   for (RankedDesign& one : order) {
     one.outline = outline(folder / folder_of_designs / one.design.name / saved_shape_file);
     if (!one.outline.empty()) one.layers = layers_in_outline(one.design.source);
   }
-  write_atomically(folder / (name + ".csv"), designs_csv(order));
-  write_atomically(folder / (name + ".json"), designs_json(order, quantities));
-  write_atomically(folder / pareto_picture, pareto_svg(order, quantities, title));
-  write_atomically(folder / (name + ".html"), designs_page(order, quantities, title));
+  write_atomically(folder / (plan.name + ".csv"), designs_csv(order));
+  write_atomically(folder / (plan.name + ".json"), designs_json(order, plan.quantities));
+  write_atomically(folder / pareto_picture, pareto_svg(order, plan.quantities, plan.title));
+  write_atomically(folder / (plan.name + ".html"), designs_page(order, plan.quantities, plan.title));
   return order;
 }
 

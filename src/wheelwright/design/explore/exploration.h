@@ -8,13 +8,14 @@
 
 #include "wheelwright/base/expected.h"
 #include "wheelwright/design/explore/design_runs.h"
+#include "wheelwright/design/explore/plan.h"
 #include "wheelwright/design/explore/report_designs.h"
 #include "wheelwright/design/starts/start.h"
 
 namespace wheelwright {
 
 /// The designs that an exploration tries.
-struct ExplorationPlan {
+struct ExplorationSettings {
   int starts = 60;  ///< the case's own shape, if it has one, and random ones
   std::uint64_t seed = 1;
   bool keeps_sectors = false;  ///< only numbers of holes that are multiples of the case's sectors
@@ -40,34 +41,46 @@ struct DrawingSettings {
   std::function<void(const DrawingProgress&)> report = [](const DrawingProgress&) {};
 };
 
-/// The designs that an exploration tries: the same for the same case and plan; only the first ones if
+/// The designs that an exploration tries: the same for the same case and settings; only the first ones if
 /// generation had to stop. There are fewer than planned if all kinds of starts fail in turn. Fails if the
 /// case's own shape cannot be solved, and with empty_shape if the case defines no volume for its designs or
 /// no start was found.
-Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan,
+Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationSettings& wanted,
                                               const DrawingSettings& settings = {});
 
 /// Which of the previewed designs are optimized to the end: about a third of them, in spread_order().
 std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
                                 const std::vector<RankedQuantity>& quantities);
 
-/// Runs the designs: previews of all, then to the end about a third chosen by their previews, then those that
-/// no other design beats. Returns all designs with their results. Stops when the settings request it. Throws
-/// OutputError.
-std::vector<RatedDesign> explore(const std::filesystem::path& folder, const std::vector<Design>& designs,
-                                 const std::vector<RankedQuantity>& quantities, const RunSettings& settings);
+/// How far the designs of a folder are.
+struct Standing {
+  std::vector<RatedDesign> designs;  ///< those with results
+  Progression progression;           ///< to which the next ones are run
+  /// Those that are run next, in any order and by any processes; the choice of further ones depends on all
+  /// their results. None: all are done.
+  std::vector<Design> due;
+};
 
-/// All designs, run to the end. Throws OutputError.
-std::vector<RatedDesign> run_all(const std::filesystem::path& folder, const std::vector<Design>& designs,
-                                 const RunSettings& settings);
+/// Whether the run of a design is given up, so that the choices are made without its result.
+using IsGivenUp = std::function<bool(const Design&, Progression)>;
+
+/// Standing according to the results in a folder. With previews: of all designs, then to the end about a
+/// third chosen by their previews, then those that no other design beats. Otherwise: all to the end. Depends
+/// only on the results, not on the order in which they were computed.
+Standing standing(
+    const std::filesystem::path& folder, const DesignPlan& plan,
+    const IsGivenUp& is_given_up = [](const Design&, Progression) { return false; });
+
+/// Runs what is due until nothing is, and returns all designs with their results. What cannot be run is given
+/// up. Stops when the settings request it. Throws OutputError.
+std::vector<RatedDesign> run_planned(const std::filesystem::path& folder, const DesignPlan& plan,
+                                     const RunSettings& settings);
 
 /// Names that write_designs() uses in a folder, besides NAME.csv, NAME.json and NAME.html.
 inline constexpr const char* pareto_picture = "pareto.svg";
 
 /// Ranks the designs and writes NAME.csv, NAME.json, NAME.html and pareto.svg. Throws OutputError.
-std::vector<RankedDesign> write_designs(const std::filesystem::path& folder, const std::string& name,
-                                        const std::vector<RatedDesign>& designs,
-                                        const std::vector<RankedQuantity>& quantities,
-                                        const std::string& title);
+std::vector<RankedDesign> write_designs(const std::filesystem::path& folder, const DesignPlan& plan,
+                                        const std::vector<RatedDesign>& designs);
 
 }  // namespace wheelwright

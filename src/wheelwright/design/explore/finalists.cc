@@ -12,7 +12,7 @@
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/design/explore/design_runs.h"
 #include "wheelwright/design/explore/pareto.h"
-#include "wheelwright/design/explore/workers.h"
+#include "wheelwright/design/explore/shared_work.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/files/file_content.h"
@@ -115,39 +115,56 @@ SolvedDesign solved_on_finer_grid(const RatedDesign& of, const fs::path& run, co
   return solved;
 }
 
-/// Solves designs on a finer grid, and stores their numbers.
-void solve(const fs::path& place, const std::vector<RatedDesign*>& designs,
-           const FinalistSettings& settings) {
-  std::mutex mutex;
-  on_threads(settings.threads, static_cast<int>(designs.size()), [&](int i) {
-    if (settings.stop_requested()) return;
-    RatedDesign& one = *designs[i];
-    SolvedDesign solved =
-        solved_on_finer_grid(one, place / one.design.name, Interrupt(settings.stop_requested));
-    const std::scoped_lock lock(mutex);
-    if (solved.may_be_stored) write_atomically(numbers_file(place, one.design), to_json(solved.numbers));
-    one.finer = std::move(solved.numbers);
-    settings.done(one);
-  });
+/// The time that the designs take about [s], on so many threads.
+double expected_seconds(const fs::path& place, const std::vector<RatedDesign>& designs, int threads) {
+  double seconds = 0;
+  for (const RatedDesign& one : designs)
+    seconds += trials_per_finalist * seconds_per_trial(place / one.design.name);
+  return seconds / std::min<double>(threads, static_cast<double>(designs.size()));
 }
 
-/// Gives these designs their numbers on a finer grid; fewer after a request to stop.
-void add_finer_numbers(const fs::path& place, const std::vector<RatedDesign*>& designs,
-                       const FinalistSettings& settings) {
-  std::vector<RatedDesign*> unknown;
-  double seconds = 0;
-  for (RatedDesign* one : designs) {
-    one->finer = known_numbers(numbers_file(place, one->design));
-    if (one->finer) continue;
-    unknown.push_back(one);
-    seconds += trials_per_finalist * seconds_per_trial(place / one->design.name);
+/// Solves designs one by one, while others may solve the same ones.
+class SharedSolutions {
+ public:
+  SharedSolutions(fs::path place, std::vector<RatedDesign> designs, const FinalistSettings& settings)
+      : place_(std::move(place)), designs_(std::move(designs)), settings_(settings) {}
+
+  std::optional<FolderInUse> solve(int i) {
+    RatedDesign one = designs_[i];
+    const fs::path file = numbers_file(place_, one.design);
+    one.finer = known_numbers(file);
+    if (!one.finer && settings_.stop_requested()) return {};
+    bool is_stored = one.finer.has_value();
+    if (!one.finer) {
+      SolvedDesign solved =
+          solved_on_finer_grid(one, place_ / one.design.name, Interrupt(settings_.stop_requested));
+      is_stored = solved.may_be_stored;
+      if (is_stored) write_atomically(file, to_json(solved.numbers));
+      one.finer = std::move(solved.numbers);
+    }
+    const std::scoped_lock lock(mutex_);
+    if (!is_stored) not_stored_[one.design.name] = *one.finer;
+    settings_.done(one);
+    return {};
   }
-  if (unknown.empty()) return;
-  std::vector<RatedDesign> told;
-  for (const RatedDesign* one : unknown) told.push_back(*one);
-  settings.begin(told, seconds / std::min<double>(settings.threads, static_cast<double>(unknown.size())));
-  solve(place, unknown, settings);
-}
+
+  bool waits(int i, const FolderInUse& holder) {
+    if (settings_.stop_requested()) return false;
+    if (settings_.waits(designs_[i].design, holder)) return true;
+    const std::scoped_lock lock(mutex_);
+    not_stored_[designs_[i].design.name] = {.failure = to_string(holder) + " is solving it"};
+    return false;
+  }
+
+  std::map<std::string, FinerNumbers> not_stored() { return std::move(not_stored_); }
+
+ private:
+  fs::path place_;
+  std::vector<RatedDesign> designs_;
+  const FinalistSettings& settings_;
+  std::map<std::string, FinerNumbers> not_stored_;
+  std::mutex mutex_;
+};
 
 }  // namespace
 
@@ -175,18 +192,52 @@ std::vector<int> finalists(const std::vector<RatedDesign>& designs,
   return result;
 }
 
-std::vector<RatedDesign> with_finer_numbers(const fs::path& folder, std::vector<RatedDesign> designs,
+StandingOfFinalists standing_of_finalists(const fs::path& folder, std::vector<RatedDesign> designs,
+                                          const std::vector<RankedQuantity>& quantities,
+                                          const std::map<std::string, FinerNumbers>& others) {
+  StandingOfFinalists now{std::move(designs), {}};
+  for (int n_left = max_finalists; n_left > 0 && now.due.empty();) {
+    int n_taken = 0;
+    for (const int i : finalists(now.designs, quantities)) {
+      RatedDesign& one = now.designs[i];
+      if (one.finer || n_taken == n_left) continue;
+      ++n_taken;
+      one.finer = known_numbers(numbers_file(folder / folder_of_designs, one.design));
+      if (const auto other = others.find(one.design.name); !one.finer && other != others.end())
+        one.finer = other->second;
+      if (!one.finer) now.due.push_back(i);
+    }
+    if (n_taken == 0) break;
+    n_left -= n_taken;
+  }
+  return now;
+}
+
+std::map<std::string, FinerNumbers> solve_on_finer_grid(const fs::path& folder,
+                                                        const std::vector<RatedDesign>& designs,
+                                                        const FinalistSettings& settings) {
+  const fs::path place = folder / folder_of_designs;
+  settings.begin(designs, expected_seconds(place, designs, settings.threads));
+  SharedSolutions solutions(place, designs, settings);
+  share_work(settings.threads, static_cast<int>(designs.size()),
+             {.lock = [&](int i) { return lock_of_design(folder, designs[i].design); },
+              .work = [&](int i) { return solutions.solve(i); },
+              .waits = [&](int i, const FolderInUse& holder) { return solutions.waits(i, holder); }});
+  return solutions.not_stored();
+}
+
+std::vector<RatedDesign> with_finer_numbers(const fs::path& folder, const std::vector<RatedDesign>& designs,
                                             const std::vector<RankedQuantity>& quantities,
                                             const FinalistSettings& settings) {
-  for (int n_left = max_finalists; n_left > 0 && !settings.stop_requested();) {
-    std::vector<RatedDesign*> next;
-    for (const int i : finalists(designs, quantities))
-      if (!designs[i].finer && std::ssize(next) < n_left) next.push_back(&designs[i]);
-    if (next.empty()) break;
-    add_finer_numbers(folder / folder_of_designs, next, settings);
-    n_left -= static_cast<int>(next.size());
+  std::map<std::string, FinerNumbers> not_stored;
+  auto now = standing_of_finalists(folder, designs, quantities);
+  while (!now.due.empty() && !settings.stop_requested()) {
+    std::vector<RatedDesign> due;
+    for (const int i : now.due) due.push_back(now.designs[i]);
+    not_stored.merge(solve_on_finer_grid(folder, due, settings));
+    now = standing_of_finalists(folder, designs, quantities, not_stored);
   }
-  return designs;
+  return now.designs;
 }
 
 }  // namespace wheelwright

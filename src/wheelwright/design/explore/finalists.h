@@ -2,9 +2,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "wheelwright/design/explore/design.h"
+#include "wheelwright/run/checkpoints/folder_lock.h"
 
 namespace wheelwright {
 
@@ -30,16 +33,39 @@ struct FinalistSettings {
   /// Called before designs are solved that were not yet, with the time that this takes about [s].
   std::function<void(const std::vector<RatedDesign>&, double seconds)> begin =
       [](const std::vector<RatedDesign>&, double) {};
+  /// Called several times a second for each that another process solves, by several threads: whether to wait
+  /// for its numbers.
+  std::function<bool(const Design&, const FolderInUse&)> waits = [](const Design&, const FolderInUse&) {
+    return false;
+  };
   /// Called with each of them, by one thread at a time.
   std::function<void(const RatedDesign&)> done = [](const RatedDesign&) {};
 };
 
-/// The designs of a folder with the finalists' numbers on a finer grid (quantities/analysis/finer_grid.h).
-/// These may make other designs finalists, which are then solved too, up to max_finalists in all. Numbers are
-/// stored in folder/designs/NAME.finer.json and read from there. Throws OutputError.
+/// How far the finalists of a folder are.
+struct StandingOfFinalists {
+  std::vector<RatedDesign> designs;  ///< all, with the finalists' numbers as far as they are known
+  std::vector<int> due;              ///< those that are solved next
+};
+
+/// Standing according to the numbers in folder/designs/NAME.finer.json, or in `others` by the designs' names.
+/// Numbers may make other designs finalists, which are then due too, up to max_finalists in all.
+StandingOfFinalists standing_of_finalists(const std::filesystem::path& folder,
+                                          std::vector<RatedDesign> designs,
+                                          const std::vector<RankedQuantity>& quantities,
+                                          const std::map<std::string, FinerNumbers>& others = {});
+
+/// The designs of a folder with the finalists' numbers on a finer grid (quantities/analysis/finer_grid.h):
+/// solves what is due until nothing is. Other processes may do the same at the same time. Throws OutputError.
 std::vector<RatedDesign> with_finer_numbers(const std::filesystem::path& folder,
-                                            std::vector<RatedDesign> designs,
+                                            const std::vector<RatedDesign>& designs,
                                             const std::vector<RankedQuantity>& quantities,
                                             const FinalistSettings& settings);
+
+/// Solves these designs on a finer grid and stores their numbers. Returns those that could not be stored, by
+/// the designs' names: an interrupted solution, and one that needs more memory than there is now.
+std::map<std::string, FinerNumbers> solve_on_finer_grid(const std::filesystem::path& folder,
+                                                        const std::vector<RatedDesign>& designs,
+                                                        const FinalistSettings& settings);
 
 }  // namespace wheelwright
