@@ -7,7 +7,7 @@ namespace wheelwright {
 
 namespace {
 
-constexpr std::array<Preset, 16> all{{
+constexpr std::array<Preset, 17> all{{
     {"paper16", "the wheel of the paper with 16 holes", R"(# The wheel of the paper: 16 round holes.
 
 title = "16 holes"
@@ -132,6 +132,49 @@ width = 0.010
 [grid]
 radial_cells = 28
 angular_cells = 288
+)"},
+    {"caster-3d", "a small wheel of polyurethane from a mould, for 25 kg, in three dimensions",
+     R"(# A caster of 125 mm in three dimensions, with free side faces: a tyre of polyurethane on a rigid hub, cast in
+# a mould of two halves with a draft of 2 degrees.
+
+title = "Caster in 3D"
+
+[wheel]
+dimension = 3
+inner_radius = 0.025
+outer_radius = 0.0625
+width = 0.032
+sectors = 12
+
+[material]
+youngs_modulus = 60e6
+poissons_ratio = 0.45
+
+[load]
+mass = 25
+positions = 2
+
+[contact]
+quadrature_points = 3
+
+[[shape.slot]]
+count = 12
+center_radius = 0.043
+length = 0.022
+width = 0.011
+
+[grid]
+radial_cells = 12
+angular_cells = 144
+axial_cells = 4
+tread_levels = 1
+
+[optimizer]
+smoothing = 0.1  # keeps the edges smooth on a coarse grid
+made = "moulded"
+draft = 2
+rim_band = 0.0033
+tread_band = 0.0064
 )"},
     {"tram", "a solid steel wheel of a tram, for 50 kN",
      R"(# The disc of a tram's wheel, solid steel without holes. To optimize it, add holes or shapes.
