@@ -29,6 +29,7 @@
 #include "wheelwright/quantities/analysis/finer_grid.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/checkpoints/folder_lock.h"
+#include "wheelwright/run/checkpoints/lock_reach.h"
 #include "wheelwright/run/study/study.h"
 
 // Many designs of one case: how they are drawn, run, and ranked.
@@ -260,6 +261,23 @@ TEST(Workers, CallEachOnceOnAnyNumberOfThreads) {
                           }),
                std::runtime_error);
   EXPECT_LT(begun, 1000);
+}
+
+TEST(LockReach, IsThatOfTheDeepestMount) {
+  const std::string mounts =
+      "22 1 254:1 / / rw,relatime shared:1 - ext4 /dev/root rw\n"
+      "23 22 0:41 / /home rw shared:2 master:3 - nfs4 server:/home "
+      "rw,vers=4.2,local_lock=none,addr=10.0.0.1\n"
+      "24 23 0:42 / /home/my\\040work rw - nfs server:/work rw,vers=3,nolock,local_lock=all\n"
+      "25 22 0:43 / /scratch rw - lustre mgs:/fs rw,flock\n"
+      "26 22 0:44 / /scratch/local rw - lustre mgs:/fs rw,localflock\n"
+      "27 22 0:45 / /far rw - fuse.sshfs me@far: rw\n";
+  for (const char* reaching : {"/", "/tmp/runs", "/home/me", "/homestead", "/home/my", "/scratch/x"})
+    EXPECT_FALSE(why_locks_are_local(mounts, reaching)) << reaching;
+  EXPECT_EQ(why_locks_are_local(mounts, "/home/my work/runs"), "nfs, mounted with nolock");
+  EXPECT_EQ(why_locks_are_local(mounts, "/scratch/local"), "lustre, mounted with localflock");
+  EXPECT_EQ(why_locks_are_local(mounts, "/far/away"), "fuse.sshfs");
+  EXPECT_FALSE(why_locks_are_local("not mounts\n", "/far/away"));
 }
 
 TEST(NumberList, OfAllForms) {
