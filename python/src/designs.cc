@@ -27,11 +27,10 @@ std::vector<RankedQuantity> chosen(const Case& c, const std::vector<std::string>
   return result;
 }
 
-/// NAME.json of the designs of a plan, which are run in its folder. A callback that raises, and Ctrl-C, stop
-/// the runs, which are saved.
-std::string ranked_designs(const std::string& folder, const DesignPlan& plan, int threads) {
+/// Runs the designs of a plan in its folder, with other processes if there are some. Ctrl-C stops the runs,
+/// which are saved.
+void run_plan(const std::string& folder, const DesignPlan& plan, int threads) {
   Signals signals;
-  std::optional<std::vector<RatedDesign>> designs;
   {
     const Computing computing;
     const ThreadLimit one_thread_each(1);
@@ -39,47 +38,69 @@ std::string ranked_designs(const std::string& folder, const DesignPlan& plan, in
     settings.threads = threads;
     settings.stop_requested = [&signals] { return signals.raised(); };
     settings.waits = [](const Design&, const FolderInUse&) { return true; };
-    designs.emplace(run_planned(folder, plan, settings));
+    run_planned(folder, plan, settings);
   }
   signals.rethrow();
-  return without_gil([&] { return designs_json(write_designs(folder, plan, *designs), plan.quantities); });
 }
 
-std::string explored(const HeldCase& held, const std::string& folder, int starts, std::uint64_t seed,
-                     bool keeps_sectors, const std::vector<std::string>& words, int threads) {
-  const auto quantities = chosen(held.value, words);
-  const auto designs = computed([&](const Interrupt& interrupt) {
-    return planned_designs(held.value, {starts, seed, keeps_sectors, quantities},
-                           {.must_end = [&] { return interrupt.requested(); }});
+/// Writes tables, picture and page of the results that are there; returns the content of NAME.json.
+std::string collect(const std::string& folder, const DesignPlan& plan) {
+  return without_gil([&] {
+    return designs_json(write_designs(folder, plan, standing(folder, plan).designs), plan.quantities);
   });
-  return ranked_designs(folder,
-                        {.name = "exploration",
-                         .title = run_title(held.value),
-                         .has_previews = true,
-                         .quantities = quantities,
-                         .designs = designs},
-                        threads);
 }
 
-std::string swept(const HeldCase& held, const std::string& folder,
-                  const std::vector<std::pair<std::string, std::vector<double>>>& keys,
-                  const std::vector<std::string>& words, int threads) {
+DesignPlan exploration(const HeldCase& held, int starts, std::uint64_t seed, bool keeps_sectors,
+                       const std::vector<std::string>& words) {
   const auto quantities = chosen(held.value, words);
+  return {.name = "exploration",
+          .title = run_title(held.value),
+          .has_previews = true,
+          .quantities = quantities,
+          .designs = computed([&](const Interrupt& interrupt) {
+            return planned_designs(held.value, {starts, seed, keeps_sectors, quantities},
+                                   {.must_end = [&] { return interrupt.requested(); }});
+          })};
+}
+
+DesignPlan swept(const HeldCase& held, const std::vector<std::pair<std::string, std::vector<double>>>& keys,
+                 const std::vector<std::string>& words) {
   std::vector<SweptKey> swept;
   for (const auto& [key, values] : keys) swept.push_back({key, values});
-  const auto designs = sweep_designs(held.value, held.given_cells, held.file, swept);
+  auto designs = sweep_designs(held.value, held.given_cells, held.file, swept);
   if (!designs) throw py::value_error(designs.failure().text);
-  return ranked_designs(
-      folder,
-      {.name = "sweep", .title = run_title(held.value), .quantities = quantities, .designs = *designs},
-      threads);
+  return {.name = "sweep",
+          .title = run_title(held.value),
+          .quantities = chosen(held.value, words),
+          .designs = *std::move(designs)};
+}
+
+/// The plan that another process wrote to the folder.
+DesignPlan plan_in(const std::string& folder) {
+  auto plan = read_plan(folder);
+  if (!plan) throw py::value_error(plan.failure().text);
+  return *std::move(plan);
+}
+
+/// Makes the folder, with the plan in it for other processes.
+void write_new_plan(const std::string& folder, const DesignPlan& plan) {
+  without_gil([&] {
+    make_folder(folder);
+    write_plan(folder, plan);
+    return 0;
+  });
 }
 
 }  // namespace
 
 void bind_designs(py::module_& m) {
-  m.def("explore", &explored);
-  m.def("sweep", &swept);
+  py::class_<DesignPlan>(m, "DesignPlan");
+  m.def("exploration", &exploration);
+  m.def("swept", &swept);
+  m.def("plan_in", &plan_in);
+  m.def("write_plan", &write_new_plan);
+  m.def("run_plan", &run_plan);
+  m.def("collect", &collect);
 }
 
 }  // namespace wheelwright::python

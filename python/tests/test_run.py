@@ -1,9 +1,12 @@
+import importlib.util
+import multiprocessing
 import os
 import pickle
 import subprocess
 import sys
 import tempfile
 import unittest
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -173,6 +176,33 @@ class Designs(Folder):
         designs = ww.explore(case, self.folder / "explored", starts=2)
         self.assertEqual(len(designs["designs"]), 2)
         self.assertTrue((self.folder / "explored" / "pareto.svg").exists())
+
+    def expect_shared_equals_alone(self, executor):
+        case = small().replace({"optimizer.iterations": 3})
+        alone = ww.explore(case, self.folder / "alone", starts=4)
+        shared = ww.explore(case, self.folder / "shared", starts=4, executor=executor, workers=3)
+        self.assertEqual(shared, alone)
+        for name in ("exploration.html", "exploration.csv", "pareto.svg"):
+            self.assertEqual((self.folder / "shared" / name).read_bytes(), (self.folder / "alone" / name).read_bytes())
+
+    def test_are_shared_by_processes(self):
+        with ProcessPoolExecutor(3, mp_context=multiprocessing.get_context("spawn")) as executor:
+            self.expect_shared_equals_alone(executor)
+
+    @unittest.skipUnless(importlib.util.find_spec("distributed"), "python3-distributed is not installed")
+    def test_are_shared_by_workers_of_dask(self):
+        from distributed import Client
+
+        with Client(n_workers=3, threads_per_worker=1, dashboard_address=None) as client:
+            self.expect_shared_equals_alone(client.get_executor())
+
+    def test_whose_workers_all_fail_raise(self):
+        case = small().replace({"optimizer.iterations": 1})
+        with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
+            executor.submit(os.getpid).result()
+            with self.assertRaises(BrokenExecutor):
+                executor.submit(os._exit, 1).exception()
+                ww.explore(case, self.folder / "failed", starts=2, executor=executor, workers=1)
 
 
 class Reports(Folder):

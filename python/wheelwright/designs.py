@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from . import _core
@@ -23,6 +25,8 @@ def explore(
     keeps_sectors: bool = False,
     quantities: Sequence[str] = ("stiffness", "run_out"),
     threads: int = 1,
+    executor: Executor | None = None,
+    workers: int = 1,
 ) -> Designs:
     """Optimizes the case from random starts, and ranks the designs: ``wheelwright explore``, in 2D.
 
@@ -31,11 +35,13 @@ def explore(
     Args:
         keeps_sectors: only numbers of holes that are multiples of the case's sectors.
         quantities: by which designs are ranked and plotted.
-        threads: the number of concurrent runs.
+        threads: the number of concurrent runs of one process.
+        executor: starts `workers` processes that share the runs, on this machine or on others that see the folder:
+            a ``ProcessPoolExecutor``, ``dask.distributed.Client(...).get_executor()``, an ``MPIPoolExecutor``.
+        workers: their number.
     """
-    text = _core.explore(case._core, str(folder), starts, seed, keeps_sectors, list(quantities), threads)
-    designs: Designs = json.loads(text)
-    return designs
+    plan = _core.exploration(case._core, starts, seed, keeps_sectors, list(quantities))
+    return _run(folder, plan, threads, executor, workers)
 
 
 def sweep(
@@ -45,8 +51,38 @@ def sweep(
     *,
     quantities: Sequence[str] = ("stiffness", "run_out"),
     threads: int = 1,
+    executor: Executor | None = None,
+    workers: int = 1,
 ) -> Designs:
-    """Optimizes the case for every combination of values of some keys: ``wheelwright sweep``, in 2D."""
+    """Optimizes the case for every combination of values of some keys: ``wheelwright sweep``, in 2D.
+
+    The other arguments are those of `explore`.
+    """
     values = [(key, [float(value) for value in some]) for key, some in keys.items()]
-    designs: Designs = json.loads(_core.sweep(case._core, str(folder), values, list(quantities), threads))
+    plan = _core.swept(case._core, values, list(quantities))
+    return _run(folder, plan, threads, executor, workers)
+
+
+def _run(
+    folder: str | PathLike[str], plan: _core.DesignPlan, threads: int, executor: Executor | None, workers: int
+) -> Designs:
+    if executor is None:
+        _core.run_plan(str(folder), plan, threads)
+    else:
+        _core.write_plan(str(folder), plan)
+        _work_together(str(Path(folder).resolve()), threads, executor, workers)
+    designs: Designs = json.loads(_core.collect(str(folder), plan))
     return designs
+
+
+def _work_together(folder: str, threads: int, executor: Executor, workers: int) -> None:
+    """Waits until one worker has ended all designs; raises what all workers raised, if none has."""
+    futures = [executor.submit(_work, folder, threads) for _ in range(workers)]
+    failures = [failure for future in futures if (failure := future.exception()) is not None]
+    if len(failures) == len(futures):
+        raise failures[0]
+
+
+def _work(folder: str, threads: int) -> None:
+    """Runs the designs of a plan in a worker process."""
+    _core.run_plan(folder, _core.plan_in(folder), threads)
