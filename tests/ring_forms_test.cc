@@ -561,5 +561,31 @@ TEST(RingForms, ABushingAtFiniteStrainIsThatOfGetFem) {
   }
 }
 
+/// Four blocks, between lines parallel to the middle of a quarter of the ring, which is compressed by 20 %.
+/// The stress is singular at the corners.
+TEST(RingForms, ACompressedBlockWithCutSidesIsThatOfGetFem) {
+  const auto g = grid<2>(20, 60);
+  const auto middle = [&](double azimuth) {
+    const double sector = std::floor((azimuth + 2 * std::numbers::pi) / g.sector_angle());
+    return (sector + 0.5) * g.sector_angle();
+  };
+  LevelSet<2> psi = solid(g);
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const auto polar = psi.lattice.polar_point(i);
+    const double from_middle = polar[0] * std::sin(polar[1] - 0.5 * g.sector_angle());
+    psi.values[i] = std::max(from_middle - 0.061, -0.047 - from_middle);
+  }
+  struct Block {
+    double ratio, energy, force, along, tolerance;
+  };
+  for (const Block& block :
+       {Block{0.3, 3099.3064, -232671.95, 3679.94, 2e-3}, {0.49, 4506.6038, -347949.05, -1752.35, 1e-2}}) {
+    const auto blocks = bonded_ring(psi, block.ratio, {-0.028, 0.01}, middle);
+    EXPECT_NEAR(blocks.energy / (g.n_sectors * block.energy), 1, 0.5 * block.tolerance) << block.ratio;
+    EXPECT_NEAR(blocks.forces[0] / (g.n_sectors * block.force), 1, block.tolerance) << block.ratio;
+    EXPECT_NEAR(blocks.forces[1] / g.n_sectors, block.along, 1e-3 * std::abs(block.force)) << block.ratio;
+  }
+}
+
 }  // namespace
 }  // namespace wheelwright
