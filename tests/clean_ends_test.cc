@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
@@ -135,6 +136,35 @@ TEST(FinalWidths, ShapesThatHaveThemAreUnchanged) {
   EXPECT_EQ(course.last.final_widths, FinalWidths::kept);
   EXPECT_EQ(course.last.history_begin, 0);
   for (const auto& trial : course.trials) EXPECT_TRUE(trial.iteration == 0 || trial.step > 0);
+}
+
+// The run ends after 8 shapes, whose last one has the widths: what is saved there must lead to the same
+// trials and to the same end.
+TEST(FinalWidths, ARunContinuedFromItsEndEndsThereByTheSameTrials) {
+  const Start start{"Holes11On8x88", 11, 8, 88, {0.25596}, 11, 0.03616};
+  const auto read =
+      parse_case(case_text(start, 20,
+                           "accepted_increase = 0\ntolerance = 0\nredistance_every = 3\nsmoothing = "
+                           "0.1\nsmooth_every = 4"),
+                 "wheel.toml");
+  const auto study = make_study<2>(read.value.value());
+  const auto optimizer = optimizer_of(*study);
+  std::vector<double> objectives;
+  const auto observe = [&](const Trial<2>& trial, const OptimizationState<2>&) {
+    if (trial.verdict == Verdict::accepted)
+      objectives.clear();
+    else if (trial.evaluation)
+      objectives.push_back(trial.evaluation->function("objective").value);
+  };
+  auto state = *optimizer.start(study->initial, observe);
+  const auto run_on = [&] { return optimizer.run(state, observe, [] { return false; }); };
+  ASSERT_EQ(run_on(), StopReason::no_descent);
+  const auto at_the_end = std::exchange(objectives, {});
+  const int shapes = state.iteration;
+  ASSERT_GT(at_the_end.size(), 1u);
+  EXPECT_EQ(run_on(), StopReason::no_descent);
+  EXPECT_EQ(state.iteration, shapes);
+  EXPECT_EQ(objectives, at_the_end);
 }
 
 /// Holes of two cells become slits that cannot be repaired: such shapes keep the widths, if they have them.

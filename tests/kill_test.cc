@@ -231,7 +231,7 @@ std::map<std::string, std::string> results_of_designs(const fs::path& all) {
   return files;
 }
 
-const std::string designs_to_explore = small_case_of_any_width(20) + "errors = \"estimated\"\n";
+const std::string designs_to_explore = small_case(20) + "errors = \"estimated\"\n";
 
 /// One process plans, and `n` run the designs, each of which is killed and replaced twice.
 class SharedPlan : public Killed {

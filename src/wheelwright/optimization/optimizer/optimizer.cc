@@ -149,9 +149,13 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
   const bool goes_no_further =
       reason == StopReason::converged || reason == StopReason::no_descent || reason == StopReason::gave_up;
   if (!goes_no_further || !may_be_repaired(options_, state)) return reason;
-  const auto at_last = repair_widths(state, observer);
+  // A state that ends here stays as it is: whoever continues from it ends here, too, by the same trials.
+  OptimizationState<dim> repaired = state;
+  const auto at_last = repair_widths(repaired, observer);
   if (at_last == Repair::interrupted) return StopReason::stop_requested;
-  return at_last == Repair::done ? std::nullopt : reason;
+  if (at_last != Repair::done) return reason;
+  state = std::move(repaired);
+  return std::nullopt;
 }
 
 /// Gives the state's shape the final widths if it lacks them. The run continues from the best of the repaired
