@@ -146,8 +146,14 @@ TEST_F(Isolation, ALocaleWithCommasGivesTheSameBytes) {
   if (german.empty()) GTEST_SKIP() << "no locale with decimal commas: install the package locales";
   write_case("a.toml", "");
   const std::string analysis = "analyze a.toml --positions 2 --loads 1000.5,2500.25 --json --output ";
+  // On a slow machine check tells what it is doing.
+  const auto without_stages = [](const std::string& output) {
+    return std::regex_replace(output, std::regex("[^\n]* \\.\\.\\.\n"), "");
+  };
   for (const char* command : {"check a.toml", "reference"})
-    EXPECT_EQ(wheelwright(command).output, wheelwright(command, german).output) << command;
+    EXPECT_EQ(without_stages(wheelwright(command).output),
+              without_stages(wheelwright(command, german).output))
+        << command;
   ASSERT_EQ(wheelwright("run a.toml --iterations 2 --output plain").code, exit_done);
   ASSERT_EQ(wheelwright("run a.toml --iterations 2 --output german", german).code, exit_done);
   EXPECT_EQ(differences(folder_ / "plain", folder_ / "german"), "");
