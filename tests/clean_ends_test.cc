@@ -141,12 +141,35 @@ TEST(FinalWidths, ShapesThatHaveThemAreUnchanged) {
 // The run ends after 8 shapes, whose last one has the widths: what is saved there must lead to the same
 // trials and to the same end.
 TEST(FinalWidths, ARunContinuedFromItsEndEndsThereByTheSameTrials) {
-  const Start start{"Holes11On8x88", 11, 8, 88, {0.25596}, 11, 0.03616};
-  const auto read =
-      parse_case(case_text(start, 20,
-                           "accepted_increase = 0\ntolerance = 0\nredistance_every = 3\nsmoothing = "
-                           "0.1\nsmooth_every = 4"),
-                 "wheel.toml");
+  const auto read = parse_case(R"(
+[wheel]
+sectors = 11
+[load]
+force = 2943
+positions = 2
+[[holes.ring]]
+count = 11
+center_radius = 0.25596117063719137
+radius = 0.0361583697628822
+phase = 16.363636363636363
+[grid]
+radial_cells = 8
+angular_cells = 88
+dilatation = "pointwise"
+tread_levels = 0
+[volume]
+target = 0.8095737468130748
+[optimizer]
+iterations = 20
+accepted_increase = 0
+tolerance = 0
+redistance_every = 3
+smoothing = 0.1
+smooth_every = 4
+rim_band = 0.0175
+tread_band = 0.035
+)",
+                               "wheel.toml");
   const auto study = make_study<2>(read.value.value());
   const auto optimizer = optimizer_of(*study);
   std::vector<double> objectives;
