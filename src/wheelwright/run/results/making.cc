@@ -6,8 +6,17 @@
 
 namespace wheelwright {
 
+namespace {
+
+/// Without what is measured on the surface.
+MadeWheel made_as_asked(const Case& c) {
+  return {std::string(manufacture_words[static_cast<std::size_t>(c.optimizer.made)])};
+}
+
+}  // namespace
+
 MadeWheel made_wheel(const Case& c, const SurfaceMesh& surface) {
-  MadeWheel made{std::string(manufacture_words[static_cast<std::size_t>(c.optimizer.made)])};
+  MadeWheel made = made_as_asked(c);
   if (const auto of_case = mould(c)) {
     const PolarGrid<3> grid = polar_grid<3>(c);
     const double plane = parting_plane_of(*of_case, grid) * grid.axial_size();
@@ -23,7 +32,7 @@ std::optional<MadeWheel> made_wheel(const Case&, const LevelSet<2>&) {
 
 template <>
 std::optional<MadeWheel> made_wheel(const Case& c, const LevelSet<3>& shape) {
-  return made_wheel(c, shape_boundary(shape, c.grid.degree));
+  return mould(c) ? made_wheel(c, shape_boundary(shape, c.grid.degree)) : made_as_asked(c);
 }
 
 }  // namespace wheelwright
