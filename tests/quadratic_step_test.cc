@@ -312,7 +312,7 @@ TEST(QuadraticStep, MeetsTheOptimalityConditions) {
     const double shift = pairs == 0 || random.one_in(2) ? std::abs(random.normal()) + 0.01 : 0;
     const QuadraticStep step = quadratic_step(model, shift);
     EXPECT_TRUE(step.is_feasible);
-    double at_rest = 0;  // what the violation there rises by the bends alone, no step need make up for
+    double at_rest = 0;  // a step need not make up for the increase of the violation by the bends
     for (const auto& c : constraints)
       at_rest += c.penalty * (c.is_equality ? std::abs(c.bend) : std::max(c.bend, 0.0));
     EXPECT_GE(step.decrease, -1e-9 - at_rest);

@@ -261,7 +261,7 @@ class RandomSolidWheels(unittest.TestCase):
             self.assertGreater(math.degrees(draft["angle_rad"]), -0.01)
 
     def refusal_of_export(self, wheel, results, kind):
-        """Why there is no such file; nothing if there is a good one, or if a STEP file cannot hold the wheel, which is told."""
+        """Returns why no file was written; "" if a valid one was, or if export says that STEP cannot hold the wheel."""
         folder = results / "export"
         # Coarse cells need coarse surfaces; the outlines of STEP files have the usual tolerance.
         for share in (0.05, 0.02, 0.01):

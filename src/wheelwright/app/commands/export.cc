@@ -200,7 +200,8 @@ class ExportCommand : public Subcommand {
     return add_files(input.name, *wheel, chosen, files);
   }
 
-  /// Of a body of revolution: its profile in the formats that hold one, its surface in the others.
+  /// Adds the profile of a body of revolution in the formats that hold profiles, and its surface in the
+  /// others.
   int add_files_of_turned(const WheelInput<3>& input, Files& files) const {
     const double accuracy = tolerance(default_tolerance);
     if (is_too_fine(accuracy, input.source)) return exit_usage;

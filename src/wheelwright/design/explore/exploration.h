@@ -56,8 +56,8 @@ std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
 struct Standing {
   std::vector<RatedDesign> designs;  ///< those with results
   Progression progression;           ///< to which the next ones are run
-  /// Those that are run next, in any order and by any processes; the choice of further ones depends on all
-  /// their results. None: all are done.
+  /// The designs that are run next, in any order and by any processes. Which designs follow depends on all
+  /// their results. If there are none, all designs are done.
   std::vector<Design> due;
 };
 

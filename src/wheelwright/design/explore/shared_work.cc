@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::chrono::milliseconds between_attempts{200};
 
-/// Who keeps the thing from being worked on; nobody if it was.
+/// Works on a thing unless another process holds it. Returns that process.
 std::optional<FolderInUse> attempt(int i, const SharedWork& shared) {
   const auto lock = FileLock::acquire(shared.lock(i));
   return lock ? shared.work(i) : std::optional(lock.failure());
 }
 
-/// Those of the things that are worth another attempt.
+/// Attempts all things. Returns those that others hold and that are to be attempted again.
 std::vector<int> held_by_others(int n_threads, const std::vector<int>& things, const SharedWork& shared) {
   std::vector<int> held;
   std::mutex mutex;

@@ -20,8 +20,8 @@ struct SharedWork {
   std::function<bool(int, const FolderInUse&)> waits;
 };
 
-/// Works on things 0, ..., n - 1, each once, on `n_threads` threads; on those that others hold when the rest
-/// is done. Throws OutputError.
+/// Works on things 0, ..., n - 1, each once, on `n_threads` threads. Things that other processes hold are
+/// attempted again when the rest is done. Throws OutputError.
 void share_work(int n_threads, int n, const SharedWork& shared);
 
 }  // namespace wheelwright

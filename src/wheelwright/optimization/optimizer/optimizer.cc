@@ -226,6 +226,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
   bool all_failed = true, is_sound = false, may_be_corrected = true;
   double step = state.step;
   std::vector<double> bends;
+  // The trial that corrects for bounds is not halved: it does not count.
   for (int halvings = 0; halvings <= options_.max_halvings + (may_be_corrected ? 0 : 1); ++halvings) {
     const auto move = (*proposals)->move(step, bends);
     if (!move) {

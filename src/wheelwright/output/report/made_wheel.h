@@ -20,13 +20,13 @@ struct MadeWheel {
   std::optional<MouldedWheel> mould = {};  ///< of moulded wheels
 };
 
-/// What that means, e.g. "a body of revolution"; empty for wheels of any shape.
+/// Explains how the wheel is made, e.g. "a body of revolution"; empty if any shape is allowed.
 std::string text(const MadeWheel& made);
 
-/// Both in one line, e.g. "turned: a body of revolution"; empty for wheels of any shape.
+/// Names and explains it in one line, e.g. "turned: a body of revolution"; empty if any shape is allowed.
 std::string sentence(const MadeWheel& made);
 
-/// Where the wheel does not come out of its mould; empty if it does.
+/// Says at which place the wheel does not come out of its mould; empty if it does.
 std::string undercut_warning(const MadeWheel& made);
 
 }  // namespace wheelwright

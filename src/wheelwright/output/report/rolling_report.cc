@@ -585,8 +585,8 @@ std::string load_lines(const RollingReport& report) {
   std::string table =
       fmt::format(words, "load", "mean travel", "minimum", "maximum", "stiffness", error, "tangent", error) +
       fmt::format(words, "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]", unit_of_error, "[N/mm]", unit_of_error);
-  const auto of_error = [](std::optional<double> error) {
-    return error ? fmt::format("{:12.2g}", *error * N_per_mm) : fmt::format("{:12}", "");
+  const auto of_error = [](std::optional<double> stiffness) {
+    return stiffness ? fmt::format("{:12.2g}", *stiffness * N_per_mm) : fmt::format("{:12}", "");
   };
   for (size_t k = 0; k < report.loads.size(); ++k) {
     if (!report.under_loads[k]) continue;
