@@ -44,9 +44,9 @@ class StateOfOneLoad : public State<2> {
       std::span<const MaterialPoint<2>> points) const override {
     return state_->topological_derivatives(functions, points);
   }
-  Expected<std::vector<std::vector<ContactPatch<2>>>> contacts_under(
-      std::span<const RollingModel<2>>) const override {
-    return on_purpose;
+  std::vector<Expected<std::vector<ContactPatch<2>>>> contacts_under(std::span<const RollingModel<2>> models,
+                                                                     const Interrupt&) const override {
+    return {models.size(), on_purpose};
   }
   Expected<std::shared_ptr<const State<2>>> under(const RollingModel<2>&, const Interrupt&) const override {
     return on_purpose;

@@ -235,11 +235,14 @@ TEST(HalfWidth, IsNotUsedWithoutSymmetry) {
   auto heavier = model;
   heavier.load *= 1.5;
   const std::vector models{heavier, pushed};
-  const auto a_both = (*a)->contacts_under(models), b_both = (*b)->contacts_under(models);
-  const auto a_heavier = (*a)->contacts_under(std::span(models).first(1));
-  ASSERT_TRUE(a_both && b_both && a_heavier);
-  for (int k = 0; k < 2; ++k) expect_the_same_patch((*a_both)[k][0], (*b_both)[k][0]);
-  expect_the_same_patch((*a_heavier)[0][0], (*b_both)[0][0]);
+  const auto a_both = (*a)->contacts_under(models, {}), b_both = (*b)->contacts_under(models, {});
+  const auto a_heavier = (*a)->contacts_under(std::span(models).first(1), {}).front();
+  ASSERT_TRUE(a_heavier);
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_TRUE(a_both[k] && b_both[k]);
+    expect_the_same_patch((*a_both[k])[0], (*b_both[k])[0]);
+  }
+  expect_the_same_patch((*a_heavier)[0], (*b_both[0])[0]);
 
   psi.values.back() += 1e-4;
   const auto uneven_a = testing::all_states<3>(**half, psi), uneven_b = testing::all_states<3>(*whole, psi);

@@ -148,6 +148,7 @@ std::vector<Case> starting_points() {
     cases.push_back(warm);
     Case soft = plain;
     soft.contact.theta = 0;
+    soft.material.model = MaterialModel::mooney_rivlin;
     soft.contact.gamma_0 = 20;
     soft.grid.tread_levels = 0;
     Case soft_layer = soft;
@@ -195,7 +196,10 @@ Case with_tables(Case c, const SectionArray<Struct>& section) {
     tables[1].name = "core";
     tables[0].inner_radius.reset();
     tables[0].outer_radius = 0.22;
-    if (c.contact.theta != 0) make_orthotropic(tables[1]);  // large deformation knows isotropic layers only
+    if (c.contact.theta != 0)
+      make_orthotropic(tables[1]);
+    else  // large deformation, which knows isotropic layers only
+      for (MaterialLayer& layer : tables) layer.model = MaterialModel::mooney_rivlin;
     static_cast<FatigueConstants&>(tables[1]) = c.material;
   }
   if constexpr (std::is_same_v<Struct, MaterialCord>) {  // another place for it is at 0.25 m

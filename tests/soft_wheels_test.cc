@@ -136,6 +136,45 @@ TEST(SoftWheels, TheLargestLoadIsFoundByTheTravel) {
   EXPECT_LT(force_at(1.1 * travel), largest);
 }
 
+/// A curve of travels has the forces of wheels solved from rest up to the travel at which edges of
+/// neighbouring spokes cross, and says so beyond; loads beyond one that fails are not sought.
+TEST(SoftWheels, ACurveEndsWhereEdgesCross) {
+  Case c = *parse_case(find_preset("soft-spokes")->text, "preset.toml").value;
+  c.grid.radial_cells = 14;
+  c.grid.angular_cells = 160;
+  c.optimizer.rim_band = c.optimizer.tread_band = 0.0129;
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto at_travel = [&](double travel) {
+    Case held = c;
+    held.load.travel = travel;
+    return rolling_model<2>(held);
+  };
+  const auto problem = *LargeDeformationProblem<2>::create(at_travel(0.004));
+  const auto solution = problem.solve({shape, nullptr}, {{{0}}, {1}});
+  ASSERT_TRUE(solution) << solution.failure().detail;
+  std::vector<RollingModel<2>> models;
+  for (const double travel : {0.008, 0.012, 0.016, 0.020, 0.024, 0.028}) models.push_back(at_travel(travel));
+  const auto curve = problem.curve(*solution, 0, models);
+  int n_open = 0;
+  for (size_t k = 0; k < models.size(); ++k) {
+    const auto afresh = LargeDeformationProblem<2>::create(models[k])->solve({shape, nullptr}, {{{0}}, {1}});
+    if (!afresh) continue;
+    const auto& equilibrium = afresh->equilibria.front();
+    if (afresh->ring->edges.overlap(nodal_displacement(*afresh->ring, equilibrium))) {
+      ASSERT_FALSE(curve[k]);
+      EXPECT_EQ(curve[k].failure().reason, FailureReason::material_overlaps) << curve[k].failure().detail;
+      continue;
+    }
+    ++n_open;
+    ASSERT_TRUE(curve[k]) << curve[k].failure().detail;
+    EXPECT_NEAR(
+        curve[k]->equilibrium.state.rim_force.towards_ground / equilibrium.state.rim_force.towards_ground, 1,
+        1e-7);
+  }
+  EXPECT_GE(n_open, 2);
+  EXPECT_FALSE(curve.back());
+}
+
 TEST(SoftWheels, AreSolvedOrEndWithAReason) { expect_an_end_of_each(8, 1); }
 TEST(SoftWheels, AreSolvedOrEndWithAReasonSlow) { expect_an_end_of_each(200, 2); }
 

@@ -48,6 +48,11 @@ void check_load(const SingleLoad& single, const CaseKey& model, Conflicts& found
 
 void large_strain_conflicts(const Case& c, Conflicts& found) {
   const auto materials = placed_materials(c);
+  for (const PlacedMaterial& placed : materials)
+    if (placed.large.second_share != 0 && placed.large.model != MaterialModel::mooney_rivlin)
+      found.push_back({{placed.second_share_key(), placed.model_key()},
+                       "second_share belongs to mooney_rivlin",
+                       "omit it, or use model = \"mooney_rivlin\""});
   const auto large = std::ranges::find_if(materials, [](const PlacedMaterial& placed) {
     return placed.large.model != MaterialModel::small_strain;
   });

@@ -154,6 +154,11 @@ CaseKey PlacedMaterial::model_key() const {
   return key_of(static_cast<MaterialModel MaterialLayer::*>(&LargeStrainConstants::model), *layer);
 }
 
+CaseKey PlacedMaterial::second_share_key() const {
+  if (!layer) return key_of(static_cast<double RingMaterial::*>(&LargeStrainConstants::second_share));
+  return key_of(static_cast<double MaterialLayer::*>(&LargeStrainConstants::second_share), *layer);
+}
+
 bool has_large_strains(const Case& c) {
   return std::ranges::any_of(placed_materials(c), [](const PlacedMaterial& placed) {
     return placed.large.model != MaterialModel::small_strain;

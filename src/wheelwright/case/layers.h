@@ -40,6 +40,7 @@ struct PlacedMaterial {
   CaseKey poissons_ratio_key() const;  ///< that of radius and azimuth of an orthotropic material
   CaseKey loss_factor_key() const;
   CaseKey model_key() const;
+  CaseKey second_share_key() const;
 };
 
 /// Whether a material of the ring deforms by large strains, so that the whole wheel is computed so.

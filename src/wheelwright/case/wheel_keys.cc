@@ -258,8 +258,9 @@ const SectionArray<MaterialLayer>& material_layer_sections() {
       .name = "layer",
       .meaning =
           "a ring of another material between two radii, bonded to what lies inside and outside of it: "
-          "linear elasticity, isotropic or orthotropic, in the plane of [material], which is the material of "
-          "what lies in no layer; layers do not overlap; rows of the grid end at their radii, and are "
+          "linear elasticity, isotropic or orthotropic, or a model of large strains, in the plane of "
+          "[material], which is the material of what lies in no layer; layers do not overlap; rows of the "
+          "grid end at their radii, and are "
           "equally "
           "high in between",
       .in = [](Case& c) -> std::vector<MaterialLayer>& { return c.layers; },

@@ -71,7 +71,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   for (const auto& load_case : all_loads) report.load_cases.push_back(load_case.name);
   report.heat = heat_results(solver, wheel.shape, solution);
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
-  report.under_loads = under_loads<dim>(solution, report.loads);
+  report.under_loads = under_loads<dim>(solution, report.loads, print_contact_progress());
   return report;
 }
 
@@ -83,7 +83,7 @@ Expected<FinerReport, std::string> finer_report(const Expected<SolvedFinerShape<
   if (!finer) return finer.failure();
   return FinerReport{
       rolling_analysis(*finer->solver, *finer->states),
-      under_loads<dim>(*finer->states, loads),
+      under_loads<dim>(*finer->states, loads, print_contact_progress()),
       finer->refinement,
       rolling_losses<dim>(*finer->solver, finer->shape, *finer->states),
       fatigue_results<dim>(*finer->solver, finer->shape, *finer->states),
@@ -224,10 +224,12 @@ class AnalyzeCommand : public Subcommand {
     if (!made) return report_failure(name(), made.failure());
     const StateSolver<dim>& solver = **made;
     const LevelSet<dim>& shape = wheel.shape;
-    const auto solved = solver.states(shape, solver.all_positions(), print_contact_progress());
-    if (!solved) return report_failure(name(), solved.failure());
-    if (const auto failure = material_overlaps(solver, shape, **solved))
-      return report_failure(name(), *failure);
+    const auto solved = solved_without_overlap(solver, shape);
+    if (!solved) {
+      const int code = report_failure(name(), solved.failure());
+      if (const auto lighter = under_smallest_load(wheel)) analyze_instead(*lighter);
+      return code;
+    }
     RollingReport report = rolling_report(wheel, loads(), solver, **solved, all_loads);
     if (!without_errors_ || accuracy_)
       add_accuracy(with_levels_of(c, all), solver, shape, solved, all_loads, report);
@@ -239,6 +241,34 @@ class AnalyzeCommand : public Subcommand {
     for (const std::string& warning : warnings_of_heat(report)) warn_about(wheel.name, warning);
     if (output_) write(report, shape, solver, **solved, all_loads);
     return exit_done;
+  }
+
+  template <int dim>
+  static SolvedStates<dim> solved_without_overlap(const StateSolver<dim>& solver,
+                                                  const LevelSet<dim>& shape) {
+    auto solved = solver.states(shape, solver.all_positions(), print_contact_progress());
+    if (!solved) return solved;
+    if (const auto failure = material_overlaps(solver, shape, **solved)) return *failure;
+    return solved;
+  }
+
+  /// The wheel under the smallest of --loads if that is less than its own; its load or travel is too large.
+  template <int dim>
+  std::optional<WheelInput<dim>> under_smallest_load(const WheelInput<dim>& wheel) const {
+    if (!loads_) return {};
+    const double smallest = std::ranges::min(loads());
+    if (!wheel.source.load.travel && smallest >= wheel.source.load.force) return {};
+    WheelInput<dim> lighter = wheel;
+    lighter.source.load.force = smallest;
+    lighter.source.load.travel.reset();
+    return lighter;
+  }
+
+  template <int dim>
+  void analyze_instead(const WheelInput<dim>& lighter) const {
+    print_err("wheelwright {}: what follows is under {:g} N, the smallest of --loads\n", name(),
+              lighter.source.load.force);
+    analyze(lighter, lighter.source);
   }
 
   /// Adds what finer grids say about the numbers. `c` has the tread levels of the solver.

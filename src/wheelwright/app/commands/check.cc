@@ -92,11 +92,13 @@ class CheckCommand : public Subcommand {
     if (measures) checked.clearances = measures->clearances;
     if (measures) checked.notes.push_back(clearance_report(measures->clearances));
     const auto planes = plane_comparison(c);
-    if (planes && *planes) checked.notes.push_back(comparison_text(**planes));
+    if (planes && *planes) checked.notes.push_back(comparison_text(c, **planes));
+    const auto predicted = predictions(c);
+    if (const std::string note = prediction_note(predicted); !note.empty()) checked.notes.push_back(note);
     checked.warnings = warnings(c);
     warn(in_dimension_of(c, [&](auto dim) { return fitting_of_initial_shape<dim>(c); }));
     if (planes && *planes) warn(plane_warning(c, **planes));
-    warn(predicted_warning(c));
+    warn(prediction_warning(predicted));
     for (const std::string& warning : bound_warnings(c)) warn(warning);
     if (!measures) warn("walls and gaps were not measured: " + measures.failure().what);
     if (measures)
@@ -116,9 +118,9 @@ class CheckCommand : public Subcommand {
     return compare_planes(c, print_contact_progress());
   }
 
-  static std::optional<std::string> predicted_warning(const Case& c) {
+  static std::vector<PredictedDeformation> predictions(const Case& c) {
     const SlowStage stage("solving the initial wheel, on a coarse grid");
-    return predicted_deformation(c, print_contact_progress());
+    return predicted_deformations(c, print_contact_progress());
   }
 
   std::string case_file_;

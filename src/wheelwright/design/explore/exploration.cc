@@ -179,7 +179,8 @@ std::vector<Design> take_full_results(const fs::path& folder, const std::vector<
 
 /// All designs, of which nothing is known before.
 Standing first_standing(const fs::path& folder, const DesignPlan& plan, const IsGivenUp& is_given_up) {
-  Standing now{.designs = {}, .progression = plan.has_previews ? Progression::preview : Progression::full};
+  Standing now{
+      .designs = {}, .progression = plan.has_previews ? Progression::preview : Progression::full, .due = {}};
   for (const Design& design : plan.designs) {
     if (auto known = known_result(folder, design, now.progression))
       now.designs.push_back({design, *std::move(known)});

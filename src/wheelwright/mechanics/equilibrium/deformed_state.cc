@@ -1,15 +1,14 @@
 #include "wheelwright/mechanics/equilibrium/deformed_state.h"
 
-#include <cmath>
-#include <deque>
-#include <limits>
+#include <algorithm>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/base/shared_interrupt.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/mechanics/contact/contact_results.h"
-#include "wheelwright/mechanics/contact/tangent_stiffness.h"
 #include "wheelwright/mechanics/elasticity/voigt_indices.h"
 #include "wheelwright/mechanics/equilibrium/deformed_gradient.h"
 #include "wheelwright/mechanics/rolling/moving_boundary.h"
@@ -24,28 +23,7 @@ class DeformedDisplacement : public Displacement<dim> {
   explicit DeformedDisplacement(const LargeDeformation<dim>& solution) : solution_(solution) {}
 
   RingField at_nodes(int position) const override {
-    const RingSpace<dim>& space = solution_.ring->forms.space();
-    const Lattice<dim>& lattice = space.lattice();
-    const auto& equilibrium = solution_.equilibria[position];
-    const double ground = equilibrium.ground.azimuth(lattice.grid());
-    RingField field{dim, std::vector<double>(dim * size_t(lattice.n_nodes()) * lattice.grid().n_sectors,
-                                             std::numeric_limits<double>::quiet_NaN())};
-    for (int line = 0; line < lattice.nodes()[1] * lattice.grid().n_sectors; ++line) {
-      const double azimuth = line * lattice.node_angle();
-      for (int radial = 0; radial < lattice.nodes()[0]; ++radial) {
-        const std::array<int, dim> place{radial, line};
-        const int node = space.number(place);
-        if (node < 0 && radial > 0) continue;
-        Vec<dim> v{};
-        if (node >= 0) std::copy_n(&equilibrium.v[space.dof(node, 0)], dim, v.begin());
-        const double radius = lattice.radius(radial);
-        const Vec<dim> of_rim = rotated<dim>(
-            displacement<dim>(equilibrium.state.rim, rotated<dim>({radius}, azimuth - ground)), ground);
-        const Vec<dim> u = rotated<dim>(v, azimuth) + of_rim;
-        std::copy(u.begin(), u.end(), &field.values[dim * ring_node<dim>(lattice, place)]);
-      }
-    }
-    return field;
+    return nodal_displacement(*solution_.ring, solution_.equilibria[position]);
   }
 
   FactoredField strains(int cell, std::span<const Vec<dim>> points) const override {
@@ -115,19 +93,6 @@ ContactPatch<dim> deformed_patch(const LargeDeformation<dim>& solution,
   return patch;
 }
 
-/// The contacts of all positions, with the stiffness of the tangents at their solutions.
-template <int dim>
-std::vector<ContactPatch<dim>> patches_with_stiffness(const LargeDeformationProblem<dim>& problem,
-                                                      const LargeDeformation<dim>& solution) {
-  std::vector<ContactPatch<dim>> patches(solution.equilibria.size());
-  parallel_for(solution.positions.size(), [&](int i) {
-    patches[i] = deformed_patch(solution, solution.equilibria[i]);
-    if (const auto tangent = problem.linearized(solution, solution.equilibria[i]))
-      patches[i].stiffness = tangent_stiffness(tangent->solution.contact, tangent->solution.state);
-  });
-  return patches;
-}
-
 template <int dim>
 class DeformedState : public State<dim> {
  public:
@@ -185,17 +150,29 @@ class DeformedState : public State<dim> {
     return Failure{FailureReason::unsupported_model, "large deformation has no topological derivatives"};
   }
 
-  Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
-      std::span<const RollingModel<dim>> models) const override {
-    std::vector<std::vector<ContactPatch<dim>>> result;
-    std::deque<LargeDeformation<dim>> solved;  // the last two
-    for (const RollingModel<dim>& model : models) {
-      auto next = problem_.solve_under(model, solved.empty() ? solution_ : solved.back(), {},
-                                       solved.size() < 2 ? nullptr : &solved.front());
-      if (!next) return Failure(next.failure());
-      solved.push_back(*std::move(next));
-      if (solved.size() > 2) solved.pop_front();
-      result.push_back(patches_with_stiffness(problem_, solved.back()));
+  std::vector<Expected<std::vector<ContactPatch<dim>>>> contacts_under(
+      std::span<const RollingModel<dim>> models, const Interrupt& interrupt) const override {
+    const Interrupt shared = shared_by_threads(interrupt);
+    const int n_positions = solution_.positions.size();
+    std::vector<std::vector<ContactPatch<dim>>> patches(models.size());
+    for (auto& of_model : patches) of_model.resize(n_positions);
+    std::vector<std::vector<std::optional<Failure>>> failures(n_positions);
+    parallel_for(n_positions, [&](int i) {
+      const auto curve = problem_.curve(solution_, i, models, shared.at_position(i, n_positions));
+      for (size_t k = 0; k < models.size(); ++k) {
+        failures[i].push_back(curve[k] ? std::nullopt : std::optional<Failure>(curve[k].failure()));
+        if (!curve[k]) continue;
+        patches[k][i] = deformed_patch(solution_, curve[k]->equilibrium);
+        patches[k][i].stiffness = curve[k]->stiffness;
+      }
+    });
+    std::vector<Expected<std::vector<ContactPatch<dim>>>> result;
+    for (size_t k = 0; k < models.size(); ++k) {
+      const auto failed = std::ranges::find_if(failures, [&](auto& f) { return f[k].has_value(); });
+      if (failed == failures.end())
+        result.emplace_back(std::move(patches[k]));
+      else
+        result.emplace_back(*(*failed)[k]);
     }
     return result;
   }

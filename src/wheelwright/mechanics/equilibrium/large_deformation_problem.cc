@@ -7,6 +7,7 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/shared_interrupt.h"
 #include "wheelwright/base/stopwatch.h"
+#include "wheelwright/mechanics/contact/tangent_stiffness.h"
 #include "wheelwright/mechanics/equilibrium/deformed_state.h"
 
 namespace wheelwright {
@@ -36,10 +37,29 @@ std::optional<Failure> unsupported_model(const RollingModel<dim>& model) {
   return unsupported_loads(model);
 }
 
-/// The quantity that grows along a curve of loads: the travel where it is given, otherwise the load.
+/// The failure of a position whose edges cross.
 template <int dim>
-double load_parameter(const RollingModel<dim>& model) {
-  return model.travel.value_or(model.load);
+std::optional<EquilibriumFailure> overlap(const DeformableRing<dim>& ring,
+                                          const RingEquilibrium<dim>& equilibrium) {
+  const PolarGrid<dim>& grid = ring.domain.grid;
+  const double travel = equilibrium.state.rim.towards_ground / (grid.outer_radius - grid.inner_radius);
+  if (travel < smallest_travel_of_overlap || !ring.edges.overlap(nodal_displacement(ring, equilibrium)))
+    return {};
+  return EquilibriumFailure{overlap_failure(travel)};
+}
+
+/// A position with the tangent at its solution, whose zone has at least so many columns to either side of the
+/// ground.
+template <int dim>
+Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized_solution(
+    const EquilibriumSolver<dim>& solver, const DeformableRing<dim>& ring, GroundPosition ground,
+    const EquilibriumStart<dim>& start, int half_zone, const Interrupt& interrupt) {
+  const auto solved = solver.solve(ground, start, interrupt);
+  if (!solved) return solved.failure();
+  auto linearized = solver.linearized(*solved, interrupt, half_zone);
+  if (!linearized) return linearized;
+  if (auto failure = overlap(ring, linearized->solution)) return *std::move(failure);
+  return linearized;
 }
 
 /// Continues a displacement to the nodes of a ring that had no material: layer by layer, each node by the
@@ -121,12 +141,13 @@ class Continuation {
 }  // namespace
 
 template <int dim>
-DeformableRing<dim>::DeformableRing(CutDomain<dim> of_shape, const HyperelasticTable<dim>& table,
-                                    const RollingModel<dim>& model)
+DeformableRing<dim>::DeformableRing(const LevelSet<dim>& psi, CutDomain<dim> of_shape,
+                                    const HyperelasticTable<dim>& table, const RollingModel<dim>& model)
     : domain(std::move(of_shape)),
       forms(domain, table),
       contact(forms, model.contact_points),
       tread(forms, contact, model.materials, model.tread),
+      edges(psi, forms.space().lattice()),
       orders(forms),
       problem{forms, contact, orders} {}
 
@@ -180,7 +201,8 @@ Expected<LargeDeformation<dim>, EquilibriumFailure> LargeDeformationProblem<dim>
                                     small_strains_->protected_tread_rows()))
     return EquilibriumFailure{*failure};
   std::vector<PhaseTime> phases{{phase::cut, watch.lap()}};
-  const auto ring = std::make_shared<const DeformableRing<dim>>(*std::move(domain), *table_, model_);
+  const auto ring =
+      std::make_shared<const DeformableRing<dim>>(shape.psi, *std::move(domain), *table_, model_);
   phases.push_back({phase::assembly, watch.lap()});
   const Lattice<dim>& lattice = ring->forms.space().lattice();
   const std::size_t n_values = dim * std::size_t(lattice.n_nodes()) * lattice.grid().n_sectors;
@@ -196,18 +218,44 @@ Expected<LargeDeformation<dim>, EquilibriumFailure> LargeDeformationProblem<dim>
 
 template <int dim>
 Expected<LargeDeformation<dim>, EquilibriumFailure> LargeDeformationProblem<dim>::solve_under(
-    const RollingModel<dim>& model, const LargeDeformation<dim>& solution, const Interrupt& interrupt,
-    const LargeDeformation<dim>* earlier) const {
-  const double there = load_parameter(solution.model);
-  const double ahead =
-      earlier ? (load_parameter(model) - there) / (there - load_parameter(earlier->model)) : 0;
+    const RollingModel<dim>& model, const LargeDeformation<dim>& solution, const Interrupt& interrupt) const {
   const auto start = [&](int i) -> std::optional<EquilibriumStart<dim>> {
-    EquilibriumStart<dim> result{solution.equilibria[i].v, solution.equilibria[i].state};
-    for (size_t k = 0; ahead != 0 && k < result.v.size(); ++k)
-      result.v[k] += ahead * (result.v[k] - earlier->equilibria[i].v[k]);
-    return result;
+    return EquilibriumStart<dim>{solution.equilibria[i].v, solution.equilibria[i].state};
   };
   return roll(model, solution.ring, solution.positions, start, interrupt);
+}
+
+template <int dim>
+auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, int position,
+                                         std::span<const RollingModel<dim>> models,
+                                         const Interrupt& interrupt) const
+    -> std::vector<Expected<LoadedEquilibrium<dim>, EquilibriumFailure>> {
+  const auto solver = [&](const RollingModel<dim>& model) {
+    return EquilibriumSolver<dim>(model, solution.ring->problem, small_strains_->tread());
+  };
+  const GroundPosition ground = solution.positions.grounds[position];
+  EquilibriumStart<dim> start{solution.equilibria[position].v, solution.equilibria[position].state};
+  std::optional<double> too_large;  // a load that failed
+  std::vector<Expected<LoadedEquilibrium<dim>, EquilibriumFailure>> result;
+  for (size_t k = 0; k < models.size(); ++k) {
+    if (too_large && !models[k].travel && models[k].load > *too_large) {
+      result.emplace_back(EquilibriumFailure{{FailureReason::overload, "a smaller load fails already"}});
+      continue;
+    }
+    const int next_half_zone = k + 1 < models.size() ? solver(models[k + 1]).first_half_zone() : 0;
+    auto point =
+        linearized_solution(solver(models[k]), *solution.ring, ground, start, next_half_zone, interrupt);
+    if (!point) {
+      if (!models[k].travel && point.failure().reason != FailureReason::interrupted)
+        too_large = models[k].load;
+      result.emplace_back(point.failure());
+      continue;
+    }
+    start = {point->solution.v, point->solution.state, std::move(point->linearization)};
+    const auto stiffness = tangent_stiffness(point->solution.contact, point->solution.state);
+    result.emplace_back(LoadedEquilibrium<dim>{std::move(point->solution), stiffness});
+  }
+  return result;
 }
 
 template <int dim>
@@ -224,6 +272,31 @@ Expected<std::shared_ptr<const State<dim>>> LargeDeformationProblem<dim>::states
   auto solution = solve(shape, std::move(positions), starts, interrupt);
   if (!solution) return Failure(solution.failure());
   return deformed_state(*this, *std::move(solution));
+}
+
+template <int dim>
+RingField nodal_displacement(const DeformableRing<dim>& ring, const RingEquilibrium<dim>& equilibrium) {
+  const RingSpace<dim>& space = ring.forms.space();
+  const Lattice<dim>& lattice = space.lattice();
+  const double ground = equilibrium.ground.azimuth(lattice.grid());
+  RingField field{dim, std::vector<double>(dim * size_t(lattice.n_nodes()) * lattice.grid().n_sectors,
+                                           std::numeric_limits<double>::quiet_NaN())};
+  for (int line = 0; line < lattice.nodes()[1] * lattice.grid().n_sectors; ++line) {
+    const double azimuth = line * lattice.node_angle();
+    for (int radial = 0; radial < lattice.nodes()[0]; ++radial) {
+      const std::array<int, dim> place{radial, line};
+      const int node = space.number(place);
+      if (node < 0 && radial > 0) continue;
+      Vec<dim> v{};
+      if (node >= 0) std::copy_n(&equilibrium.v[space.dof(node, 0)], dim, v.begin());
+      const double radius = lattice.radius(radial);
+      const Vec<dim> of_rim = rotated<dim>(
+          displacement<dim>(equilibrium.state.rim, rotated<dim>({radius}, azimuth - ground)), ground);
+      const Vec<dim> u = rotated<dim>(v, azimuth) + of_rim;
+      std::copy(u.begin(), u.end(), &field.values[dim * ring_node<dim>(lattice, place)]);
+    }
+  }
+  return field;
 }
 
 template <int dim>
@@ -251,6 +324,7 @@ StartDisplacements starts_from(const LargeDeformation<dim>& solution) {
 
 template struct DeformableRing<2>;
 template class LargeDeformationProblem<2>;
+template decltype(nodal_displacement<2>) nodal_displacement<2>;
 template decltype(starts_from<2>) starts_from<2>;
 
 }  // namespace wheelwright

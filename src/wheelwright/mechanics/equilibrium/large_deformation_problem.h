@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "wheelwright/mechanics/equilibrium/ring_equilibrium.h"
 #include "wheelwright/mechanics/equilibrium/tread_observer.h"
 #include "wheelwright/mechanics/rolling/rolling_problem.h"
+#include "wheelwright/mechanics/state/material_edges.h"
 #include "wheelwright/mechanics/state/state.h"
 
 namespace wheelwright {
@@ -16,11 +18,12 @@ struct DeformableRing {
   RingForms<dim> forms;
   ContactObserver<dim> contact;
   TreadObserver<dim> tread;
+  MaterialEdges<dim> edges;
   EliminationOrders<dim> orders;
   RingProblem<dim> problem;
   std::vector<PhaseTime> phases;
 
-  DeformableRing(CutDomain<dim> of_shape, const HyperelasticTable<dim>& table,
+  DeformableRing(const LevelSet<dim>& psi, CutDomain<dim> of_shape, const HyperelasticTable<dim>& table,
                  const RollingModel<dim>& model);
   DeformableRing(const DeformableRing&) = delete;
   DeformableRing& operator=(const DeformableRing&) = delete;
@@ -34,6 +37,13 @@ struct LargeDeformation {
   LoadPositions positions;
   std::vector<RingEquilibrium<dim>> equilibria;
   std::vector<PhaseTime> phases;
+};
+
+/// A position under one of several loads.
+template <int dim>
+struct LoadedEquilibrium {
+  RingEquilibrium<dim> equilibrium;
+  std::optional<double> stiffness;  ///< tangent_stiffness()
 };
 
 /// The rolling problem at large deformation: the StateSolver of wheels with laws of HyperelasticLaw, and of
@@ -67,11 +77,17 @@ class LargeDeformationProblem : public StateSolver<dim> {
                                                             const StartDisplacements& starts = {},
                                                             const Interrupt& interrupt = {}) const;
 
-  /// The same shape and positions under other loads, from a solution; or from the straight line through it
-  /// and an `earlier` one, under a load (or travel) that differs from its own.
-  Expected<LargeDeformation<dim>, EquilibriumFailure> solve_under(
-      const RollingModel<dim>& model, const LargeDeformation<dim>& solution, const Interrupt& interrupt = {},
-      const LargeDeformation<dim>* earlier = nullptr) const;
+  /// The same shape and positions under other loads, from a solution.
+  Expected<LargeDeformation<dim>, EquilibriumFailure> solve_under(const RollingModel<dim>& model,
+                                                                  const LargeDeformation<dim>& solution,
+                                                                  const Interrupt& interrupt = {}) const;
+
+  /// One position of a solution under other models, which may differ in loads or travel only: [model]. Each
+  /// is sought from the last one that was solved, with the tangent there, and fails on its own; loads larger
+  /// than one that failed are not sought.
+  std::vector<Expected<LoadedEquilibrium<dim>, EquilibriumFailure>> curve(
+      const LargeDeformation<dim>& solution, int position, std::span<const RollingModel<dim>> models,
+      const Interrupt& interrupt = {}) const;
 
   /// An equilibrium of the solution, linearized at its displacement.
   Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized(
@@ -91,6 +107,10 @@ class LargeDeformationProblem : public StateSolver<dim> {
   std::unique_ptr<HyperelasticTable<dim>> table_;
   std::unique_ptr<RollingProblem<dim>> small_strains_;  ///< the limit for small strains, with the same tread
 };
+
+/// The displacement of a position, as Displacement::at_nodes() gives it.
+template <int dim>
+RingField nodal_displacement(const DeformableRing<dim>& ring, const RingEquilibrium<dim>& equilibrium);
 
 /// The displacements of a solution, from which that of a similar shape is sought.
 template <int dim>

@@ -127,10 +127,10 @@ auto EquilibriumSolver<dim>::newton(const RimControl& rim, GroundPosition ground
   std::vector<double> v = start.v;
   std::optional<ContactState<dim>> known = start.contact;
   int n_corrections = 0;
-  for (int n_tangents = 1; n_tangents <= max_tangents; ++n_tangents) {
+  for (int n_tangents = start.linearization ? 0 : 1; n_tangents <= max_tangents; ++n_tangents) {
     if (interrupt.requested())
       return EquilibriumFailure{{FailureReason::interrupted, "while the wheel was deformed"}};
-    auto linearization = linearize(v, ground, half);
+    auto linearization = n_tangents == 0 ? start.linearization : linearize(v, ground, half);
     if (!linearization) {
       EquilibriumFailure failure{linearization.failure()};
       if (failure.reason == FailureReason::not_positive_definite) failure.unstable = v;
@@ -192,6 +192,7 @@ auto EquilibriumSolver<dim>::solve_under(const RimControl& rim, GroundPosition g
   if (start.contact) half = std::max(half, start.contact->zone.n_columns / 2);
   const int widest = (model_.grid.ring_columns() - 1) / 2;
   for (EquilibriumStart<dim> from = start;;) {
+    if (from.linearization && from.linearization->zone().n_columns < 2 * half) from.linearization.reset();
     auto solved = newton(rim, ground, from, half, interrupt);
     if (!solved || !touches_edge(solved->state) || half == widest) return solved;
     half = std::min(widest, std::max(half + 2, half_zone(solved->state.rim.towards_ground)));
@@ -330,10 +331,11 @@ auto EquilibriumSolver<dim>::beyond(const RimControl& rim, const RingEquilibrium
 }
 
 template <int dim>
-auto EquilibriumSolver<dim>::linearized(const RingEquilibrium<dim>& solution,
-                                        const Interrupt& interrupt) const
+auto EquilibriumSolver<dim>::linearized(const RingEquilibrium<dim>& solution, const Interrupt& interrupt,
+                                        int half_zone) const
     -> Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> {
-  auto linearization = linearize(solution.v, solution.ground, solution.state.zone.n_columns / 2);
+  auto linearization =
+      linearize(solution.v, solution.ground, std::max(half_zone, solution.state.zone.n_columns / 2));
   if (!linearization) return EquilibriumFailure{linearization.failure()};
   auto last = correction(**linearization, (**linearization).forces(), solution.v, rim_control(model_),
                          solution.state, interrupt);
@@ -342,7 +344,9 @@ auto EquilibriumSolver<dim>::linearized(const RingEquilibrium<dim>& solution,
   result.v = sum(std::move(result.v), 1, last->step);
   result.contact = std::move(last->contact);
   result.state = std::move(last->state);
-  return LinearizedEquilibrium<dim>{std::move(result), *std::move(linearization)};
+  auto stable = checked(std::move(result), **linearization);
+  if (!stable) return stable.failure();
+  return LinearizedEquilibrium<dim>{*std::move(stable), *std::move(linearization)};
 }
 
 template class EquilibriumSolver<2>;

@@ -30,11 +30,13 @@ struct LinearizedEquilibrium {
   std::shared_ptr<const RingLinearization<dim>> linearization;
 };
 
-/// A displacement to start from, perhaps with its contact.
+/// A displacement to start from, perhaps with its contact and with the equations linearized at it, which
+/// spare the first tangent.
 template <int dim>
 struct EquilibriumStart {
   std::vector<double> v;
   std::optional<ContactState<dim>> contact = {};
+  std::shared_ptr<const RingLinearization<dim>> linearization = {};
 };
 
 /// Why a load position has no solution, or none was found.
@@ -70,9 +72,14 @@ class EquilibriumSolver {
                                                                  const EquilibriumStart<dim>& start,
                                                                  const Interrupt& interrupt = {}) const;
 
-  /// A solution linearized at its displacement.
+  /// A solution linearized at its displacement; its zone has at least so many columns to either side of the
+  /// ground. Fails as solve() does if the solution is unstable.
   Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized(const RingEquilibrium<dim>& solution,
-                                                                      const Interrupt& interrupt = {}) const;
+                                                                      const Interrupt& interrupt = {},
+                                                                      int half_zone = 0) const;
+
+  /// Columns to either side of the ground in which contact is first sought.
+  int first_half_zone() const { return half_zone(model_.travel.value_or(0)); }
 
  private:
   using Result = Expected<RingEquilibrium<dim>, EquilibriumFailure>;

@@ -123,19 +123,20 @@ class WholeState : public State<3> {
     return half_->topological_derivatives(of_half(functions), there);
   }
 
-  Expected<std::vector<std::vector<ContactPatch<3>>>> contacts_under(
-      std::span<const RollingModel<3>> models) const override {
+  std::vector<Expected<std::vector<ContactPatch<3>>>> contacts_under(
+      std::span<const RollingModel<3>> models, const Interrupt& interrupt) const override {
     if (!std::ranges::all_of(models, HalfWidthSolver::can_halve)) {
-      const auto whole = on_whole_width({});
-      if (!whole) return whole.failure();
-      return (*whole)->contacts_under(models);
+      const auto whole = on_whole_width(interrupt);
+      if (!whole) return {models.size(), whole.failure()};
+      return (*whole)->contacts_under(models, interrupt);
     }
     std::vector<RollingModel<3>> of_half;
     for (const auto& model : models) of_half.push_back(first_half(model));
-    auto contacts = half_->contacts_under(of_half);
-    if (!contacts) return contacts;
-    for (auto& of_model : *contacts)
-      for (auto& contact : of_model) contact = halves().patch(contact);
+    auto contacts = half_->contacts_under(of_half, interrupt);
+    for (auto& of_model : contacts) {
+      if (!of_model) continue;
+      for (auto& contact : *of_model) contact = halves().patch(contact);
+    }
     return contacts;
   }
 

@@ -1,5 +1,6 @@
 #include "wheelwright/mechanics/rolling/ring_state.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "wheelwright/base/parallel.h"
@@ -79,12 +80,12 @@ class RingState : public State<dim> {
     return derivatives;
   }
 
-  Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
-      std::span<const RollingModel<dim>> models) const override {
+  std::vector<Expected<std::vector<ContactPatch<dim>>>> contacts_under(
+      std::span<const RollingModel<dim>> models, const Interrupt&) const override {
     std::vector<RolledContact<dim>> rolled;
     for (size_t i = 0; i < solution_.contacts.size(); ++i)
       rolled.push_back({solution_.contacts[i], solution_.states[i]});
-    std::vector<std::vector<ContactPatch<dim>>> result;
+    std::vector<Expected<std::vector<ContactPatch<dim>>>> result;
     for (const RollingModel<dim>& model : models) {
       std::vector<std::optional<Failure>> failures(rolled.size());
       std::vector<ContactPatch<dim>> patches(rolled.size());
@@ -99,9 +100,11 @@ class RingState : public State<dim> {
         patches[i] = contact_patch(rolled[i].contact, rolled[i].state);
         patches[i].stiffness = tangent_stiffness(rolled[i].contact, rolled[i].state);
       });
-      for (const auto& failure : failures)
-        if (failure) return *failure;
-      result.push_back(std::move(patches));
+      const auto failed = std::ranges::find_if(failures, [](const auto& f) { return f.has_value(); });
+      if (failed == failures.end())
+        result.emplace_back(std::move(patches));
+      else
+        result.emplace_back(**failed);
     }
     return result;
   }

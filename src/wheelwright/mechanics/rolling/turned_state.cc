@@ -133,12 +133,13 @@ class TurnedState : public State<dim> {
     return turned_->topological_derivatives(turned_back(functions), there);
   }
 
-  Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
-      std::span<const RollingModel<dim>> models) const override {
-    auto contacts = turned_->contacts_under(models);
-    if (!contacts) return contacts;
-    for (auto& of_model : *contacts)
-      for (auto& contact : of_model) turn(contact);
+  std::vector<Expected<std::vector<ContactPatch<dim>>>> contacts_under(
+      std::span<const RollingModel<dim>> models, const Interrupt& interrupt) const override {
+    auto contacts = turned_->contacts_under(models, interrupt);
+    for (auto& of_model : contacts) {
+      if (!of_model) continue;
+      for (auto& contact : *of_model) turn(contact);
+    }
     return contacts;
   }
 

@@ -137,9 +137,10 @@ class State : public std::enable_shared_from_this<State<dim>> {
 
   /// The contacts of the same shape and positions under other models, which may differ from the solver's only
   /// in the loads or the travel of the rim, with their stiffnesses: [model][position]. Each starts from the
-  /// one before. Fails as the contact problem does.
-  virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
-      std::span<const RollingModel<dim>> models) const = 0;
+  /// last one that was solved. Each fails on its own, as the contact problem does; at large deformation also
+  /// as StateSolver::states() does, and with material_overlaps.
+  virtual std::vector<Expected<std::vector<ContactPatch<dim>>>> contacts_under(
+      std::span<const RollingModel<dim>> models, const Interrupt& interrupt) const = 0;
 
   /// The states of the same shape and positions under another model, which may differ from this one's only in
   /// its loads. They share the factorization, which does not depend on the load. If the model rotates, the

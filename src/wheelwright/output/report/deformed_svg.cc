@@ -174,14 +174,16 @@ Peak marked_peak(const DeformedMaterial& material, const std::vector<DrawnPiece>
   return picture.peak ? Peak{material.drawn(picture.peak->place), picture.peak->value} : drawn_peak(pieces);
 }
 
-/// The scale of the pieces, which knows the largest value in view.
+/// The scale of the pieces, which knows the largest value in view. Where the peak of the material is given,
+/// nothing is larger: fields interpolated in slivers of cells are.
 ColourScale scale_with_peak(const DeformedMaterial& material, const std::vector<DrawnPiece>& pieces,
                             const DeformedPicture<2>& picture, const PictureView& view) {
   ColourScale scale = scale_of(pieces, picture.scale);
   if (pieces.empty()) return scale;
-  const Peak marked = marked_peak(material, pieces, picture);
-  const double peak = view.holds(marked.place) ? marked.value : drawn_peak(pieces).value;
-  scale.largest = std::max(scale.largest, peak);
+  const double drawn = std::max(scale.largest, drawn_peak(pieces).value);
+  scale.largest = !picture.peak                                     ? drawn
+                  : view.holds(material.drawn(picture.peak->place)) ? picture.peak->value
+                                                                    : std::min(drawn, picture.peak->value);
   return scale;
 }
 

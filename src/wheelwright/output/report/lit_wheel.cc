@@ -112,7 +112,7 @@ ColourScale scale_of(const std::vector<float>& values, const DeformedPicture<3>&
   const std::vector<double> all(values.begin(), values.end());
   ColourScale scale = picture.scale == ScaleKind::without_tail ? colour_scale_from_zero(all, usual_outliers)
                                                                : colour_scale(all, 0);
-  if (picture.peak) scale.largest = std::max(scale.largest, picture.peak->value);
+  if (picture.peak) scale.largest = picture.peak->value;
   return scale;
 }
 

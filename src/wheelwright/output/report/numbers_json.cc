@@ -75,7 +75,7 @@ void add_details(const LoadedWheel<dim>& loaded, Json& json) {
   json["peak_von_mises_place"] = place_json<dim>(summary.von_mises.place, summary.von_mises.ground_azimuth);
   for (const LayerResults& layer : loaded.rolling.layers)
     json["peak_von_mises_place of " + layer.name] = place_json<dim>(layer.peak_place, layer.peak_ground);
-  json["linear_theory"] = to_json(loaded.deformation.error);
+  if (loaded.deformation.of_linear_theory) json["linear_theory"] = to_json(loaded.deformation.error);
   json["edges_overlap"] = loaded.deformation.edges_overlap;
 }
 

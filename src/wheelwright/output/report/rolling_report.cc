@@ -76,30 +76,34 @@ PositionNumber of_curve(const char* key, Expected<std::vector<double>> RollingAn
 /// In the order of JSON.
 std::vector<PositionNumber> position_numbers(const RollingReport& report) {
   const double width = forces(report);
-  return {of_contact("radial_force_N", &ContactSummary::radial_force, width),
-          of_contact("travel_m", &ContactSummary::travel),
-          {"stiffness_N_per_m",
-           [=](const RollingAnalysis& a, size_t i) {
-             return a.positions[i].radial_force * width / a.positions[i].travel;
-           }},
-          extreme(of_contact("peak_pressure_Pa", &ContactSummary::peak_pressure)),
-          extreme(of_contact("patch_length_m", &ContactSummary::patch_length)),
-          extreme(of_contact("patch_extent_m", &ContactSummary::patch_extent)),
-          of_contact("friction_force_N", &ContactSummary::friction_force, width),
-          extreme(of_contact("peak_friction_Pa", &ContactSummary::peak_friction)),
-          of_contact("travel_along_ground_m", &ContactSummary::travel_along_ground),
-          of_contact("wind_up_rad", &ContactSummary::wind_up),
-          extreme(of_position("peak_von_mises_Pa", &RollingAnalysis::peak_von_mises)),
-          extreme(of_position("peak_strain", &RollingAnalysis::peak_strain)),
-          extreme(of_deformation("largest_rotation_rad", &PositionDeformation::largest_rotation)),
-          of_deformation("root_mean_strain", &PositionDeformation::root_mean_strain),
-          of_deformation("root_mean_rotation_rad", &PositionDeformation::root_mean_rotation),
-          {"linear_theory_error",
-           [](const RollingAnalysis& a, size_t i) { return a.deformations[i].neglected.size(); }},
-          of_position(report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
-                      &RollingAnalysis::strain_energy),
-          of_curve("travel_at_load_m", &RollingAnalysis::travel_at_load, 1),
-          of_curve("force_at_travel_N", &RollingAnalysis::force_at_travel, width)};
+  std::vector<PositionNumber> numbers{
+      of_contact("radial_force_N", &ContactSummary::radial_force, width),
+      of_contact("travel_m", &ContactSummary::travel),
+      {"stiffness_N_per_m",
+       [=](const RollingAnalysis& a, size_t i) {
+         return a.positions[i].radial_force * width / a.positions[i].travel;
+       }},
+      extreme(of_contact("peak_pressure_Pa", &ContactSummary::peak_pressure)),
+      extreme(of_contact("patch_length_m", &ContactSummary::patch_length)),
+      extreme(of_contact("patch_extent_m", &ContactSummary::patch_extent)),
+      of_contact("friction_force_N", &ContactSummary::friction_force, width),
+      extreme(of_contact("peak_friction_Pa", &ContactSummary::peak_friction)),
+      of_contact("travel_along_ground_m", &ContactSummary::travel_along_ground),
+      of_contact("wind_up_rad", &ContactSummary::wind_up),
+      extreme(of_position("peak_von_mises_Pa", &RollingAnalysis::peak_von_mises)),
+      extreme(of_position("peak_strain", &RollingAnalysis::peak_strain)),
+      extreme(of_deformation("largest_rotation_rad", &PositionDeformation::largest_rotation)),
+      of_deformation("root_mean_strain", &PositionDeformation::root_mean_strain),
+      of_deformation("root_mean_rotation_rad", &PositionDeformation::root_mean_rotation),
+      of_position(report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
+                  &RollingAnalysis::strain_energy),
+      of_curve("travel_at_load_m", &RollingAnalysis::travel_at_load, 1),
+      of_curve("force_at_travel_N", &RollingAnalysis::force_at_travel, width)};
+  if (report.is_linear)
+    numbers.push_back({"linear_theory_error", [](const RollingAnalysis& a, size_t i) {
+                         return a.deformations[i].neglected.size();
+                       }});
+  return numbers;
 }
 
 const FinerReport* finer(const RollingReport& report) {
@@ -628,9 +632,10 @@ Json variation_json(const ShownQuantity& q, double factor, int n_sectors) {
 Json positions_json(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   Json positions = Json::array();
-  for (size_t i = 0; i < a.positions.size(); ++i)
-    positions.push_back(
-        {{"azimuth_rad", a.azimuths[i]}, {"linear_theory", to_json(a.deformations[i].neglected)}});
+  for (size_t i = 0; i < a.positions.size(); ++i) {
+    positions.push_back({{"azimuth_rad", a.azimuths[i]}});
+    if (report.is_linear) positions[i]["linear_theory"] = to_json(a.deformations[i].neglected);
+  }
   for (const PositionNumber& number : position_numbers(report)) {
     const auto errors = errors_of(number, report);
     for (size_t i = 0; i < a.positions.size(); ++i) {

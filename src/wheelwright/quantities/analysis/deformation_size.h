@@ -44,6 +44,10 @@ std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const L
 /// Beyond these, results of linear elasticity deserve a warning.
 inline constexpr double small_strain = 0.05, small_travel = 0.1, small_error = 0.1;
 
+/// Beyond this strain, results at large deformation deserve a warning: a neo-Hookean law describes rubber up
+/// to about there (Treloar, The Physics of Rubber Elasticity, section 5).
+inline constexpr double moderate_strain = 0.5;
+
 /// The share of the load, at most 1, at which strain, travel and error of linear theory would stay below
 /// these if strain and travel were proportional to the load.
 double share_of_small_load(const DeformationSize& size);

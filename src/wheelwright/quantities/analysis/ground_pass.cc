@@ -12,13 +12,13 @@ std::vector<PassPlace> ground_pass(const State<dim>& state, std::span<const doub
     model.ground = ground.shifted(shift);
     const double rise = model.ground.standing(radius).rise;
     if (model.travel) *model.travel += rise - ground.standing(radius).rise;
-    const auto contacts = state.contacts_under(std::span(&model, 1));
+    const auto contacts = state.contacts_under(std::span(&model, 1), {}).front();
     if (!contacts) {
       pass.push_back({shift, rise, contacts.failure()});
       continue;
     }
     std::vector<ContactSummary> positions;
-    for (const ContactPatch<dim>& contact : contacts->front()) positions.push_back(contact_summary(contact));
+    for (const ContactPatch<dim>& contact : *contacts) positions.push_back(contact_summary(contact));
     pass.push_back({shift, rise, std::move(positions)});
   }
   return pass;

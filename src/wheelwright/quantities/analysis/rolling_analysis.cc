@@ -29,28 +29,14 @@ std::vector<ContactSummary> summaries(const std::vector<ContactPatch<dim>>& cont
 }
 
 template <int dim>
-Expected<std::vector<ContactSummary>> under(const State<dim>& state, const RollingModel<dim>& model) {
-  const auto contacts = state.contacts_under(std::span(&model, 1));
+Expected<std::vector<ContactSummary>> summaries(const Expected<std::vector<ContactPatch<dim>>>& contacts) {
   if (!contacts) return contacts.failure();
-  return summaries(contacts->front());
+  return summaries(*contacts);
 }
 
-/// All positions under every model, each started from the one before; where one fails, its neighbours are
-/// started from the state.
 template <int dim>
-void append_under(const State<dim>& state, std::span<const RollingModel<dim>> models,
-                  std::vector<Expected<std::vector<ContactSummary>>>& result) {
-  if (models.empty()) return;
-  const auto contacts = state.contacts_under(models);
-  if (contacts) {
-    for (const auto& of_model : *contacts) result.push_back(summaries(of_model));
-  } else if (models.size() == 1) {
-    result.push_back(contacts.failure());
-  } else {
-    const std::size_t half = models.size() / 2;
-    append_under<dim>(state, models.first(half), result);
-    append_under<dim>(state, models.subspan(half), result);
-  }
+Expected<std::vector<ContactSummary>> under(const State<dim>& state, const RollingModel<dim>& model) {
+  return summaries(state.contacts_under(std::span(&model, 1), {}).front());
 }
 
 std::vector<double> values(const std::vector<ContactSummary>& positions, double ContactSummary::*member) {
@@ -140,11 +126,12 @@ RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim
 
 template <int dim>
 std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
-                                                               std::span<const double> loads) {
+                                                               std::span<const double> loads,
+                                                               const Interrupt& interrupt) {
   std::vector<RollingModel<dim>> models;
   for (const double load : loads) models.push_back(at_load(state.model(), load));
   std::vector<Expected<std::vector<ContactSummary>>> result;
-  append_under<dim>(state, models, result);
+  for (const auto& contacts : state.contacts_under(models, interrupt)) result.push_back(summaries(contacts));
   return result;
 }
 

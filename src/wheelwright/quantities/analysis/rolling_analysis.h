@@ -39,10 +39,11 @@ template <int dim>
 RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state);
 
 /// All positions under other loads, in an order in which each is near the one before: [load][position]. A
-/// load fails on its own, as the contact problem does.
+/// load fails on its own (State::contacts_under()).
 template <int dim>
 std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
-                                                               std::span<const double> loads);
+                                                               std::span<const double> loads,
+                                                               const Interrupt& interrupt = {});
 
 /// The derivative of the load with respect to the mean of the travels, from the stiffnesses of all positions
 /// under that load: their harmonic mean. Nothing if one of them is unknown.

@@ -98,10 +98,12 @@ Expected<PlaneComparison> compare_planes(const Case& c, const Interrupt& interru
   return result;
 }
 
-std::string comparison_text(const PlaneComparison& comparison) {
+std::string comparison_text(const Case& c, const PlaneComparison& comparison) {
   const auto best = comparison.recommended();
-  return fmt::format("  {:<22}{:.4g} N/mm on {}; plane strain {}, plane stress {}\n  {:<22}{}\n",
-                     "stiffness in 3D", comparison.solid / 1e3, comparison.grid,
+  const std::string solid = has_large_strains(c)
+                                ? fmt::format("for small strains on {}", comparison.grid)
+                                : fmt::format("{:.4g} N/mm on {}", comparison.solid / 1e3, comparison.grid);
+  return fmt::format("  {:<22}{}; plane strain {}, plane stress {}\n  {:<22}{}\n", "stiffness in 3D", solid,
                      difference(comparison.error(Plane::strain)), difference(comparison.error(Plane::stress)),
                      "recommended",
                      best ? fmt::format("material.plane = \"{}\"", word(*best)) : "wheel.dimension = 3");

@@ -26,11 +26,12 @@ struct PlaneComparison {
 };
 
 /// Compares the planes for the initial shape of a case in 2D, under its first load, at two load positions:
-/// takes about a second. Fails like its solves.
+/// takes about a second. With small strains, also where the material has large ones. Fails like its solves.
 Expected<PlaneComparison> compare_planes(const Case& c, const Interrupt& interrupt = {});
 
-/// The comparison as text for the report of a case, and a warning if its plane assumption is too far from 3D.
-std::string comparison_text(const PlaneComparison& comparison);
+/// The comparison as text for the report of its case, and a warning if its plane assumption is too far from
+/// 3D.
+std::string comparison_text(const Case& c, const PlaneComparison& comparison);
 std::optional<std::string> plane_warning(const Case& c, const PlaneComparison& comparison);
 
 }  // namespace wheelwright

@@ -31,9 +31,13 @@ Case in_the_plane(Case c) {
   return c;
 }
 
-bool is_physical(FailureReason reason) {
+/// Whether a failure of the coarse grid tells about the wheel: at large deformation it does unless the model
+/// cannot be solved at all.
+bool tells_about_wheel(FailureReason reason, const Case& c) {
   return reason == FailureReason::rim_under_ground || reason == FailureReason::material_overlaps ||
-         reason == FailureReason::overload || reason == FailureReason::sliding;
+         reason == FailureReason::overload || reason == FailureReason::sliding ||
+         (has_large_strains(c) &&
+          (reason == FailureReason::not_positive_definite || reason == FailureReason::newton_stalled));
 }
 
 Expected<DeformationSize> deformation_of(const Case& c, const Interrupt& interrupt) {
@@ -45,15 +49,13 @@ Expected<DeformationSize> deformation_of(const Case& c, const Interrupt& interru
   return deformation_size(**solver, shape, **state);
 }
 
-/// Under the only load of a case.
-std::optional<std::string> predicted_under_load(const Case& source, const Interrupt& interrupt) {
-  if (!is_prismatic(source)) return {};
-  const Case coarse = on_predicting_grid(in_the_plane(source));
-  const auto size = deformation_of(coarse, interrupt);
-  if (!size && !is_physical(size.failure().reason)) return {};
+std::string warning(const PredictedDeformation& predicted) {
+  const auto& size = predicted.size;
   const std::string text = size ? deformation_warning(*size) : size.failure().detail;
-  if (text.empty()) return {};
-  return fmt::format("the initial shape on {}: {}", grid_text(coarse), text);
+  if (text.empty()) return "";
+  return fmt::format("{}the initial shape on {}: {}",
+                     predicted.load_case.empty() ? "" : fmt::format("load case {}: ", predicted.load_case),
+                     predicted.grid, text);
 }
 
 }  // namespace
@@ -66,11 +68,35 @@ Case on_predicting_grid(Case c) {
 
 Expected<DeformationSize> predicted_size(const Case& c) { return deformation_of(on_predicting_grid(c), {}); }
 
-std::optional<std::string> predicted_deformation(const Case& c, const Interrupt& interrupt) {
-  if (c.load.cases.empty()) return predicted_under_load(c, interrupt);
+std::vector<PredictedDeformation> predicted_deformations(const Case& c, const Interrupt& interrupt) {
+  if (!is_prismatic(c)) return {};
+  std::vector<PredictedDeformation> result;
+  const auto add = [&](const Case& of_load, const std::string& load_case) {
+    const Case coarse = on_predicting_grid(in_the_plane(of_load));
+    auto size = deformation_of(coarse, interrupt);
+    if (size || tells_about_wheel(size.failure().reason, c))
+      result.push_back({load_case, grid_text(coarse), std::move(size)});
+  };
+  if (c.load.cases.empty()) add(c, "");
   for (std::size_t k = 0; k < c.load.cases.size(); ++k)
-    if (const auto warning = predicted_under_load(with_load_case(c, static_cast<int>(k)), interrupt))
-      return fmt::format("load case {}: {}", c.load.cases[k].name, *warning);
+    add(with_load_case(c, static_cast<int>(k)), c.load.cases[k].name);
+  return result;
+}
+
+std::string prediction_note(std::span<const PredictedDeformation> predicted) {
+  std::string note;
+  for (const auto& [load_case, grid, size] : predicted)
+    if (size)
+      note += fmt::format(
+          "  {:<22}{}travel up to {:.2g} % of the ring's thickness, strains up to {:.2g} %, on {}\n",
+          "initial shape", load_case.empty() ? "" : load_case + ": ", 100 * size->travel, 100 * size->strain,
+          grid);
+  return note;
+}
+
+std::optional<std::string> prediction_warning(std::span<const PredictedDeformation> predicted) {
+  for (const PredictedDeformation& of_load : predicted)
+    if (std::string text = warning(of_load); !text.empty()) return text;
   return {};
 }
 
