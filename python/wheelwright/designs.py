@@ -28,7 +28,7 @@ def explore(
     executor: Executor | None = None,
     workers: int = 1,
 ) -> Designs:
-    """Optimizes the case from random starts, and ranks the designs: ``wheelwright explore``, in 2D.
+    """Optimizes the case from random starts, and ranks the designs: ``wheelwright explore``.
 
     Existing results in the folder are read, interrupted runs continued. Ctrl-C saves and stops.
 
@@ -54,7 +54,7 @@ def sweep(
     executor: Executor | None = None,
     workers: int = 1,
 ) -> Designs:
-    """Optimizes the case for every combination of values of some keys: ``wheelwright sweep``, in 2D.
+    """Optimizes the case for every combination of values of some keys: ``wheelwright sweep``.
 
     The other arguments are those of `explore`.
     """
