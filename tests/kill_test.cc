@@ -477,6 +477,19 @@ TEST_F(SharedPlan, ConsistsOfStepsForABatchSystem) {
   EXPECT_EQ(results_of_designs(place / "all"), results_of_designs(straight / "all"));
 }
 
+// The code by which a job knows that it must continue later.
+TEST_F(SharedPlan, StoppedBeforeAnyDesignHasEndedExitsLikeAnyStoppedRun) {
+  const fs::path place = planned("stopped");
+  Program job(place, work);
+  wait_until([&] { return last_accepted(place / "all/designs/001") >= 1; });
+  job.send(SIGSTOP);
+  ASSERT_FALSE(fs::exists(place / "all/designs/001.preview.json"));
+  job.send(SIGTERM);
+  job.send(SIGCONT);
+  EXPECT_EQ(job.wait(), exit_terminated) << job.printed();
+  EXPECT_GE(newest_good(place / "all/designs/001"), 1);
+}
+
 TEST_F(SharedPlan, StopsAndContinuesLater) {
   const fs::path place = planned("stopped");
   Program job(place, {"designs", "all", "--only", "2", "--threads", "1"});

@@ -35,7 +35,7 @@ def explore(
     Args:
         keeps_sectors: only numbers of holes that are multiples of the case's sectors.
         quantities: by which designs are ranked and plotted.
-        threads: the number of concurrent runs of one process.
+        threads: of one process: one for each run, or more if there is no memory for so many runs at once.
         executor: starts `workers` processes that share the runs, on this machine or on others that see the folder:
             a ``ProcessPoolExecutor``, ``dask.distributed.Client(...).get_executor()``, an ``MPIPoolExecutor``.
         workers: their number.

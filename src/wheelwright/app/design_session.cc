@@ -172,8 +172,7 @@ int DesignSession::run() {
     print_lines(stderr, costs_text(plan_, options_.n_threads(), !options_.without_errors));
   std::vector<RatedDesign> designs = run_all();
   if (has_finalists() && !signals_.stop()) designs = solve_finalists(designs);
-  if (const auto signal = signals_.stop())
-    return designs.empty() ? end_of_stopped(exit_nothing_saved) : end_of_stopped(128 + *signal);
+  if (const auto signal = signals_.stop()) return end_of_stopped(128 + *signal);
   return write(designs);
 }
 
