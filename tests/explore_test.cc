@@ -17,6 +17,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/design/explore/costs.h"
 #include "wheelwright/design/explore/exploration.h"
 #include "wheelwright/design/explore/finalists.h"
 #include "wheelwright/design/explore/pareto.h"
@@ -30,6 +31,7 @@
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/checkpoints/folder_lock.h"
 #include "wheelwright/run/checkpoints/lock_reach.h"
+#include "wheelwright/run/study/problem_size.h"
 #include "wheelwright/run/study/study.h"
 
 // Many designs of one case: how they are drawn, run, and ranked.
@@ -125,6 +127,72 @@ TEST(Starts, OfOtherRingsAreValid) {
   expect_valid_starts(case_of("[wheel]\ninner_radius = 0.05\nouter_radius = 0.1\nwidth = 0.03\nsectors = 6\n"
                               "[load]\nmass = 20\n[grid]\nradial_cells = 28\nangular_cells = 288\n"),
                       {0.7}, 5, 10);
+}
+
+TEST(Starts, InThreeDimensionsAreThoseOfThePlane) {
+  const Case plane = case_of(usual_wheel);
+  const Case solid = case_of("[wheel]\ndimension = 3\n[contact]\nquadrature_points = 3\n" + usual_wheel +
+                             "axial_cells = 2\n");
+  for (int number = 0; number < n_kinds_of_starts; ++number) {
+    const auto flat = draw_start(plane, {0.66}, 3, number).start,
+               extruded = draw_start(solid, {0.66}, 3, number).start;
+    ASSERT_TRUE(flat && extruded) << number;
+    EXPECT_EQ(extruded->text, flat->text);
+    EXPECT_EQ(extruded->source.holes, flat->source.holes) << flat->text;
+    EXPECT_EQ(extruded->source.shapes, flat->source.shapes) << flat->text;
+    EXPECT_NEAR(initial_volume(extruded->source), initial_volume(flat->source), 1e-5) << flat->text;
+    EXPECT_EQ(extruded->source.wheel.dimension, 3);
+  }
+}
+
+TEST(Starts, OfATurnedWheelAreRefused) {
+  Case c = case_of("[wheel]\ndimension = 3\n[contact]\nquadrature_points = 3\n" + usual_wheel);
+  c.optimizer.made = Manufacture::turned;
+  const auto designs = planned_designs(c, {.starts = 2, .quantities = {}});
+  ASSERT_FALSE(designs);
+  EXPECT_NE(designs.failure().detail.find("turned"), std::string::npos);
+}
+
+TEST(Costs, ManyDesignsRunAtOnceOnlyIfTheirMemoryIsThere) {
+  EXPECT_EQ(designs_at_once(12, 8, 1e9, {}), 8);
+  EXPECT_EQ(designs_at_once(3, 8, 1e9, {}), 3);
+  EXPECT_EQ(designs_at_once(12, 8, 1e9, 3.9e9), 3);
+  EXPECT_EQ(designs_at_once(12, 8, 1e9, 0.5e9), 1);
+  EXPECT_EQ(designs_at_once(12, 8, 1e9, 1e15), 8);
+  EXPECT_EQ(limit_of_threads(8, 3), 6);  // three threads and the five that are left
+  EXPECT_EQ(limit_of_threads(8, 1), 8);
+  EXPECT_EQ(limit_of_threads(8, 8), 1);
+}
+
+TEST(Costs, AreThoseOfTheLargestDesignAndTheMeanTime) {
+  Case small = case_of("[wheel]\ndimension = 3\n[contact]\nquadrature_points = 3\n" + usual_wheel);
+  Case large = small;
+  large.grid.axial_cells = 8;
+  const Design one{"001", "", small, {}}, other{"002", "", large, {}};
+  const DesignCosts costs = design_costs({one, other});
+  EXPECT_EQ(costs.bytes, estimated_memory(problem_size(large)));
+  EXPECT_GT(costs.bytes_on_finer_grid, costs.bytes);
+  EXPECT_NEAR(
+      *costs.seconds_per_shape,
+      0.5 * (estimated_seconds_in_3d(problem_size(small)) + estimated_seconds_in_3d(problem_size(large))),
+      1e-9);
+  EXPECT_FALSE(design_costs({{"001", "", case_of(usual_wheel), {}}}).seconds_per_shape);
+  small.grid.radial_cells = 4;
+  small.grid.angular_cells = 64;
+  EXPECT_TRUE(why_no_finalists({other}));
+  EXPECT_FALSE(why_no_finalists({{"001", "", small, {}}, other}));
+}
+
+TEST(RankedQuantities, HaveTheUnitsOfTheDimension) {
+  Case c = case_of(usual_wheel);
+  const auto energy = [&] {
+    const auto all = ranked_quantities(c);
+    return *std::ranges::find(all, "strain_energy", &RankedQuantity::word);
+  };
+  EXPECT_EQ(std::string(energy().shown.name), "J/m");
+  c.wheel.dimension = 3;
+  EXPECT_EQ(std::string(energy().shown.name), "J");
+  EXPECT_EQ(energy().key, "strain_energy_J");
 }
 
 const std::string min_mass = R"(

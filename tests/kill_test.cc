@@ -7,7 +7,9 @@
 #include <chrono>
 #include <memory>
 #include <random>
+#include <set>
 #include <thread>
+#include <utility>
 
 #include "tests/run_support.h"
 #include "wheelwright/app/exit_code.h"
@@ -32,6 +34,7 @@ struct Surroundings {
   std::string threads = "1";         ///< that the environment wants
   std::string messages = {};         ///< instead of "printed", where standard error goes
   std::string terminal = {};         ///< that it runs on, and prints to
+  std::string computations = {};     ///< file for the library computation_log
 };
 
 /// A terminal without a window: what is printed to it is lost.
@@ -73,6 +76,7 @@ class Program {
   }
 
   void send(int signal) const { ::kill(pid_, signal); }
+  pid_t process() const { return pid_; }
 
   /// Its exit code; minus the signal that ended it.
   int wait() {
@@ -95,6 +99,10 @@ class Program {
     if (!surroundings.fault.empty()) {
       setenv("WHEELWRIGHT_FAULT", surroundings.fault.c_str(), 1);
       setenv("LD_PRELOAD", (folder_of_programs() / "libfault_injection.so").c_str(), 1);
+    }
+    if (!surroundings.computations.empty()) {
+      setenv("WHEELWRIGHT_COMPUTATION_LOG", surroundings.computations.c_str(), 1);
+      setenv("LD_PRELOAD", (folder_of_programs() / "libcomputation_log.so").c_str(), 1);
     }
     for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"})
       setenv(name, surroundings.threads.c_str(), 1);
@@ -233,6 +241,105 @@ std::map<std::string, std::string> results_of_designs(const fs::path& all) {
 
 const std::string designs_to_explore = small_case(20) + "errors = \"estimated\"\n";
 
+const std::string solid_to_explore = R"(
+[wheel]
+dimension = 3
+sectors = 8
+[material]
+poissons_ratio = 0.3
+[load]
+positions = 1
+[contact]
+quadrature_points = 3
+[[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.03
+[grid]
+radial_cells = 8
+angular_cells = 96
+axial_cells = 2
+degree = 1
+tread_levels = 0
+[optimizer]
+iterations = 3
+minimum_wall = 0
+minimum_gap = 0
+rim_band = 0.0175
+tread_band = 0.035
+[output]
+errors = "estimated"
+)";
+
+void expect_equal_files(const std::map<std::string, std::string>& found,
+                        const std::map<std::string, std::string>& expected) {
+  EXPECT_EQ(found.size(), expected.size());
+  for (const auto& [name, text] : expected) {
+    ASSERT_TRUE(found.contains(name)) << name;
+    EXPECT_TRUE(found.at(name) == text) << name << ": " << first_difference(text, found.at(name));
+  }
+}
+
+/// What processes computed, by the log of the library computation_log.
+struct Computations {
+  int trials = 0;  ///< of all runs
+  int lost = 0;    ///< those after the last checkpoint of a killed process, which were computed again
+  std::vector<std::string> repeated = {};  ///< others that were computed more than once
+};
+
+/// The trials of one run, which processes compute in turn.
+class LoggedRun {
+ public:
+  /// A trial, "SHAPE,TRIAL,ACCEPTED". Returns the process that computed it before; 0 if it is new, -1 if it
+  /// was saved.
+  int add(int process, const std::string& trial) {
+    if (process != process_) times_.clear();
+    process_ = process;
+    // A run may try a shape again from the start.
+    const std::string key = fmt::format("{} {}", trial, times_[trial]++);
+    const int shape = std::stoi(trial);
+    if (trial.ends_with(",1")) accepted_ = shape;
+    if (saved_.contains(key)) return -1;
+    return std::exchange(unsaved_[{shape, key}], process);
+  }
+
+  /// A checkpoint has all trials up to the last accepted shape.
+  void save() {
+    std::erase_if(unsaved_, [&](const auto& trial) {
+      if (trial.first.first > accepted_) return false;
+      saved_.insert(trial.first.second);
+      return true;
+    });
+  }
+
+ private:
+  int process_ = 0, accepted_ = 0;
+  std::map<std::string, int> times_;
+  std::set<std::string> saved_;
+  std::map<std::pair<int, std::string>, int> unsaved_;  ///< by their shapes and keys, with their processes
+};
+
+Computations computations(const fs::path& log, const std::set<int>& killed) {
+  Computations found;
+  std::map<std::string, LoggedRun> runs;
+  std::ifstream lines(log);
+  int process = 0;
+  for (std::string run, what; lines >> process >> run >> what;) {
+    if (what == "saved") {
+      runs[run].save();
+      continue;
+    }
+    ++found.trials;
+    const int before = runs[run].add(process, what);
+    if (before == 0) continue;
+    if (killed.contains(before))
+      ++found.lost;
+    else
+      found.repeated.push_back(run + ": " + what);
+  }
+  return found;
+}
+
 /// One process plans, and `n` run the designs, each of which is killed and replaced twice.
 class SharedPlan : public Killed {
  protected:
@@ -275,13 +382,81 @@ TEST_F(SharedPlan, IsTheSameForAnyNumberOfProcessesAndDeaths) {
   for (int n = 1; n <= 4; ++n) {
     const fs::path place = planned(fmt::format("shared-{}", n));
     run_and_kill(place, n, whole, random);
-    const auto found = results_of_designs(place / "all");
-    EXPECT_EQ(found.size(), expected.size());
-    for (const auto& [name, text] : expected) {
-      ASSERT_TRUE(found.contains(name)) << name;
-      EXPECT_TRUE(found.at(name) == text) << name << ": " << first_difference(text, found.at(name));
-    }
+    expect_equal_files(results_of_designs(place / "all"), expected);
   }
+}
+
+// Two processes in turn are killed when they have computed for a while. The starts are those of the plane.
+TEST_F(SharedPlan, InThreeDimensionsIsTheSameAfterDeaths) {
+  const std::vector<std::string> explore{"explore",  "case.toml", "--starts",  "3",
+                                         "--output", "all",       "--threads", "1"};
+  const fs::path straight = workplace("straight", solid_to_explore);
+  const auto start = steady_clock::now();
+  Program one(straight, explore);
+  ASSERT_EQ(one.wait(), exit_done) << one.printed();
+  const double whole = duration<double>(steady_clock::now() - start).count();
+  EXPECT_NE(one.printed().find("s of one core for a shape"), std::string::npos) << one.printed();
+  const auto expected = results_of_designs(straight / "all");
+  EXPECT_NE(expected.at("explore.html").find("\"outline\":\"M"), std::string::npos);
+  EXPECT_NE(expected.at("001.full.json").find("strain_energy_J\""), std::string::npos);
+  EXPECT_TRUE(expected.contains("002.toml") && expected.contains("001.finer.json"));
+  const fs::path place = workplace("killed", solid_to_explore);
+  for (const double share : {0.4, 0.3}) {
+    Program program(place, explore);
+    std::this_thread::sleep_for(duration<double>(share * whole));
+    program.send(SIGKILL);
+    ASSERT_EQ(program.wait(), -SIGKILL) << program.printed();
+  }
+  Program last(place, explore);
+  ASSERT_EQ(last.wait(), exit_done) << last.printed();
+  expect_equal_files(results_of_designs(place / "all"), expected);
+}
+
+// Four processes work on 24 designs. One of them is killed at 20 random moments and replaced at once; a fifth
+// joins when half of the deaths have happened.
+TEST_F(SharedPlan, SlowOfManyDeathsComputesNothingTwiceThatWasSaved) {
+  const auto plan = [&](const std::string& name) {
+    const fs::path place = workplace(name, designs_to_explore);
+    EXPECT_EQ(Program(place, {"explore", "case.toml", "--starts", "24", "--output", "all", "--plan"}).wait(),
+              exit_done);
+    for (const auto& entry : fs::directory_iterator(place / "all/designs")) {  // saved every third shape
+      if (entry.path().extension() != ".toml") continue;
+      std::string text = content(entry.path());
+      const std::string usual = "checkpoint_every = 50";
+      text.replace(text.find(usual), usual.size(), "checkpoint_every = 3");
+      std::ofstream(entry.path()) << text;
+    }
+    return place;
+  };
+  const Surroundings logged{.computations = "log"};
+  const fs::path straight = plan("straight"), place = plan("shared");
+  const auto start = steady_clock::now();
+  ASSERT_EQ(Program(straight, work, logged).wait(), exit_done);
+  const double whole = duration<double>(steady_clock::now() - start).count();
+  const Computations once = computations(straight / "log", {});
+  EXPECT_EQ(once.repeated, std::vector<std::string>());
+
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> pause(0, whole / 60);
+  std::set<int> killed;
+  std::vector<std::unique_ptr<Program>> programs(4);
+  for (auto& program : programs) program = std::make_unique<Program>(place, work, logged);
+  for (int death = 0; death < 20; ++death) {
+    std::this_thread::sleep_for(duration<double>(pause(random)));
+    auto& program = programs[random() % 4];
+    killed.insert(program->process());
+    program->send(SIGKILL);
+    EXPECT_EQ(program->wait(), -SIGKILL) << "ended before death " << death;
+    program = std::make_unique<Program>(place, work, logged);
+    if (death == 10) programs.push_back(std::make_unique<Program>(place, work, logged));
+  }
+  for (auto& program : programs) EXPECT_EQ(program->wait(), exit_done) << program->printed();
+  expect_equal_files(results_of_designs(place / "all"), results_of_designs(straight / "all"));
+  const Computations shared = computations(place / "log", killed);
+  EXPECT_EQ(shared.repeated, std::vector<std::string>());
+  EXPECT_EQ(shared.trials, once.trials + shared.lost);
+  EXPECT_GT(shared.lost, 0);
+  std::printf("%d trials, %d of them lost by %zu deaths\n", shared.trials, shared.lost, killed.size());
 }
 
 // As jobs of a batch system do: one per design, in any order, again until nothing is due, and one that
@@ -300,6 +475,19 @@ TEST_F(SharedPlan, ConsistsOfStepsForABatchSystem) {
     }
   ASSERT_EQ(Program(place, {"designs", "all", "--collect"}).wait(), exit_done);
   EXPECT_EQ(results_of_designs(place / "all"), results_of_designs(straight / "all"));
+}
+
+// The code by which a job knows that it must continue later.
+TEST_F(SharedPlan, StoppedBeforeAnyDesignHasEndedExitsLikeAnyStoppedRun) {
+  const fs::path place = planned("stopped");
+  Program job(place, work);
+  wait_until([&] { return last_accepted(place / "all/designs/001") >= 1; });
+  job.send(SIGSTOP);
+  ASSERT_FALSE(fs::exists(place / "all/designs/001.preview.json"));
+  job.send(SIGTERM);
+  job.send(SIGCONT);
+  EXPECT_EQ(job.wait(), exit_terminated) << job.printed();
+  EXPECT_GE(newest_good(place / "all/designs/001"), 1);
 }
 
 TEST_F(SharedPlan, StopsAndContinuesLater) {

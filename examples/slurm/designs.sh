@@ -16,5 +16,7 @@ if kill -0 "$program" 2> /dev/null; then # wait ended by the signal: the program
   wait "$program"
   code=$?
 fi
-[ "$code" -ne 143 ] || scontrol requeue "$SLURM_JOB_ID" # the job's time ended; it continues later
+job=$SLURM_JOB_ID # of an array's last task: the same as that of the whole array
+[ -z "${SLURM_ARRAY_TASK_ID:-}" ] || job=${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID
+[ "$code" -ne 143 ] || scontrol requeue "$job" # the job's time ended; it continues later
 exit "$code"

@@ -3,7 +3,9 @@
 #include "computed.h"
 #include "held_case.h"
 #include "module.h"
+#include "wheelwright/base/available_memory.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/design/explore/costs.h"
 #include "wheelwright/design/explore/exploration.h"
 #include "wheelwright/design/explore/sweep.h"
 #include "wheelwright/files/atomic_file.h"
@@ -33,9 +35,12 @@ void run_plan(const std::string& folder, const DesignPlan& plan, int threads) {
   Signals signals;
   {
     const Computing computing;
-    const ThreadLimit one_thread_each(1);
+    if (plan.designs.empty()) return;
+    const int at_once = designs_at_once(static_cast<int>(plan.designs.size()), threads,
+                                        design_costs(plan.designs).bytes, available_memory());
+    const ThreadLimit limit(limit_of_threads(threads, at_once));
     RunSettings settings;
-    settings.threads = threads;
+    settings.threads = at_once;
     settings.stop_requested = [&signals] { return signals.raised(); };
     settings.waits = [](const Design&, const FolderInUse&) { return true; };
     run_planned(folder, plan, settings);

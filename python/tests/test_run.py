@@ -1,10 +1,14 @@
+import contextlib
 import importlib.util
 import multiprocessing
 import os
 import pickle
 import subprocess
 import sys
+import signal
 import tempfile
+import threading
+import time
 import unittest
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from pathlib import Path
@@ -195,6 +199,56 @@ class Designs(Folder):
 
         with Client(n_workers=3, threads_per_worker=1, dashboard_address=None) as client:
             self.expect_shared_equals_alone(client.get_executor())
+
+    def expect_only_unsaved_shapes_to_be_lost(self, call):
+        """Kills the process of a run in its middle, and lets `call` go on. The rows of the history hold times, so that
+        equal rows were not computed again."""
+        run, every, before = self.folder / "swept/designs/001", 5, []
+        case = small().replace(
+            {"optimizer.iterations": 60, "optimizer.tolerance": 0, "output.checkpoint_every": every}
+        )
+
+        def rows():
+            file = run / "history.csv"
+            return file.read_bytes().split(b"\n") if file.exists() else []
+
+        def kill():
+            deadline = time.monotonic() + 60
+            while len(rows()) < 3 * every and time.monotonic() < deadline:
+                time.sleep(0.001)
+            process = int((run / "run.lock").read_text().split()[0])
+            os.kill(process, signal.SIGSTOP)
+            before.extend(rows())
+            os.kill(process, signal.SIGKILL)
+
+        killer = threading.Thread(target=kill)
+        killer.start()
+        shared = call(case, self.folder / "swept", {"load.mass": [300]})
+        killer.join()
+        after = rows()
+        n_kept = next(k for k, (one, other) in enumerate(zip(before, after, strict=False)) if one != other)
+        n_lost = sum(row.split(b",")[2:3] == [b"1"] for row in before[n_kept:-1])
+        self.assertGreater(len(after), len(before))
+        self.assertGreater(n_kept, every)
+        self.assertLessEqual(n_lost, every)
+        self.assertEqual(shared, ww.sweep(case, self.folder / "alone", {"load.mass": [300]}))
+
+    def test_continue_from_the_last_checkpoint_of_a_dead_process(self):
+        def call(*arguments):
+            for executor in (ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) for _ in "12"):
+                with executor, contextlib.suppress(BrokenExecutor):
+                    return ww.sweep(*arguments, executor=executor)
+
+        self.expect_only_unsaved_shapes_to_be_lost(call)
+
+    @unittest.skipUnless(importlib.util.find_spec("distributed"), "python3-distributed is not installed")
+    def test_continue_from_the_last_checkpoint_of_a_dead_worker_of_dask(self):
+        from distributed import Client
+
+        with Client(n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
+            self.expect_only_unsaved_shapes_to_be_lost(
+                lambda *arguments: ww.sweep(*arguments, executor=client.get_executor())
+            )
 
     def test_whose_workers_all_fail_raise(self):
         case = small().replace({"optimizer.iterations": 1})

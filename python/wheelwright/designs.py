@@ -28,14 +28,14 @@ def explore(
     executor: Executor | None = None,
     workers: int = 1,
 ) -> Designs:
-    """Optimizes the case from random starts, and ranks the designs: ``wheelwright explore``, in 2D.
+    """Optimizes the case from random starts, and ranks the designs: ``wheelwright explore``.
 
     Existing results in the folder are read, interrupted runs continued. Ctrl-C saves and stops.
 
     Args:
         keeps_sectors: only numbers of holes that are multiples of the case's sectors.
         quantities: by which designs are ranked and plotted.
-        threads: the number of concurrent runs of one process.
+        threads: of one process: one for each run, or more if there is no memory for so many runs at once.
         executor: starts `workers` processes that share the runs, on this machine or on others that see the folder:
             a ``ProcessPoolExecutor``, ``dask.distributed.Client(...).get_executor()``, an ``MPIPoolExecutor``.
         workers: their number.
@@ -54,7 +54,7 @@ def sweep(
     executor: Executor | None = None,
     workers: int = 1,
 ) -> Designs:
-    """Optimizes the case for every combination of values of some keys: ``wheelwright sweep``, in 2D.
+    """Optimizes the case for every combination of values of some keys: ``wheelwright sweep``.
 
     The other arguments are those of `explore`.
     """

@@ -57,7 +57,7 @@ std::string fault_of_word(const Case& c, const std::string& word, const std::vec
 const RankedQuantity* ranked_as_minimized(const Case& c, const std::vector<RankedQuantity>& known) {
   Quantity minimized = minimized_quantity(c);
   if (minimized == built_in("peak_von_mises_inside")) minimized = built_in("peak_von_mises");
-  const auto found = std::ranges::find(known, number_key(minimized, 2), &RankedQuantity::key);
+  const auto found = std::ranges::find(known, number_key(minimized, c.wheel.dimension), &RankedQuantity::key);
   return found == known.end() ? nullptr : &*found;
 }
 
@@ -163,23 +163,6 @@ DrawingSettings drawing_settings(int n_starts, std::function<bool()> must_end) {
               failed);
   };
   return settings;
-}
-
-void print_plan(const fs::path& folder, const DesignPlan& plan) {
-  print("{} designs are planned in {}\n", plan.designs.size(), folder.string());
-  for (const auto& [call, meaning] : {std::pair{"", "runs all that are left, and collects the results"},
-                                      {" --only 1", "runs one of them, as far as it goes"},
-                                      {" --collect", "collects the results that are there"}})
-    print("  wheelwright designs {}{:<10}  {}\n", folder.string(), call, meaning);
-}
-
-bool is_plane_or_report(const std::string& command, const Case& c, const std::string& file) {
-  if (c.wheel.dimension == 2) return true;
-  print_err(
-      "wheelwright {}: {}: this command tries many designs, each of which takes minutes to hours in 3D; set "
-      "wheel.dimension = 2, and start a case in 3D from the best design, by [shape] from\n",
-      command, file);
-  return false;
 }
 
 }  // namespace wheelwright

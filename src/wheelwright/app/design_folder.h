@@ -56,10 +56,4 @@ struct DesignFolder {
 /// or yields fewer starts.
 DrawingSettings drawing_settings(int n_starts, std::function<bool()> must_end);
 
-/// Prints what to do with a plan that was only written.
-void print_plan(const std::filesystem::path& folder, const DesignPlan& plan);
-
-/// Whether a case is in 2D. If not, prints a message: the command ends with exit_refused.
-bool is_plane_or_report(const std::string& command, const Case& c, const std::string& file);
-
 }  // namespace wheelwright

@@ -11,15 +11,15 @@
 #include <mutex>
 #include <thread>
 
+#include "wheelwright/app/costs_text.h"
 #include "wheelwright/app/exit_code.h"
-#include "wheelwright/app/memory.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/base/available_memory.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/design/explore/costs.h"
 #include "wheelwright/output/report/value_with_error.h"
-#include "wheelwright/run/results/finer_wheel.h"
 #include "wheelwright/run/results/stop_text.h"
-#include "wheelwright/run/study/problem_size.h"
 
 namespace wheelwright {
 namespace {
@@ -27,19 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int printed_rows = 12;
-
-/// The case of the design that needs the most memory.
-const Case& largest(const std::vector<Design>& designs) {
-  return std::ranges::max_element(
-             designs, {}, [](const Design& one) { return estimated_memory(problem_size(one.source)); })
-      ->source;
-}
-
-/// As many threads as the memory allows, one for each design of `bytes`.
-int threads_within_memory(int threads, double bytes) {
-  const auto available = available_memory();
-  return available ? std::clamp(static_cast<int>(*available / bytes), 1, threads) : threads;
-}
 
 /// Waits for other processes that collect.
 std::optional<FolderLock> lock_to_collect(const fs::path& folder, const Signals& signals) {
@@ -101,10 +88,14 @@ bool DesignSession::is_time_over() const { return options_.seconds && watch_.sec
 
 bool DesignSession::has_finalists() const { return plan_.solves_finalists && !options_.without_errors; }
 
-RunSettings DesignSession::run_settings() {
+int DesignSession::at_once(double bytes) const {
+  return designs_at_once(static_cast<int>(plan_.designs.size()), options_.n_threads(), bytes,
+                         available_memory());
+}
+
+RunSettings DesignSession::run_settings(int at_once) {
   RunSettings settings;
-  settings.threads =
-      threads_within_memory(options_.n_threads(), estimated_memory(problem_size(largest(plan_.designs))));
+  settings.threads = at_once;
   settings.stop_requested = [this] { return signals_.stop().has_value(); };
   settings.may_begin = [this] { return !is_time_over(); };
   settings.done = [this](const Design& design, const DesignResult& result) { show(design, result); };
@@ -114,10 +105,9 @@ RunSettings DesignSession::run_settings() {
   return settings;
 }
 
-FinalistSettings DesignSession::finalist_settings() {
+FinalistSettings DesignSession::finalist_settings(int at_once) {
   FinalistSettings settings;
-  settings.threads =
-      threads_within_memory(options_.n_threads(), memory_on_finer_grid<2>(largest(plan_.designs)));
+  settings.threads = at_once;
   settings.stop_requested = [this] { return signals_.stop().has_value(); };
   settings.begin = [](const std::vector<RatedDesign>& designs, double seconds) {
     print_err("solving {} on a finer grid, which takes about {:.0f} s\n",
@@ -150,23 +140,46 @@ void DesignSession::show(const Design& design, const DesignResult& result) const
             numbers);
 }
 
+int DesignSession::show_plan() const {
+  print_lines(stdout, costs_text(plan_, options_.n_threads(), !options_.without_errors));
+  print("{} designs are planned in {}\n", plan_.designs.size(), folder_.string());
+  for (const auto& [call, meaning] : {std::pair{"", "runs all that are left, and collects the results"},
+                                      {" --only 1", "runs one of them, as far as it goes"},
+                                      {" --collect", "collects the results that are there"}})
+    print("  wheelwright designs {}{:<10}  {}\n", folder_.string(), call, meaning);
+  return exit_done;
+}
+
+std::vector<RatedDesign> DesignSession::run_all() {
+  const int at_once = this->at_once(design_costs(plan_.designs).bytes);
+  const ThreadLimit limit(limit_of_threads(options_.n_threads(), at_once));
+  RunSettings settings = run_settings(at_once);
+  settings.waits = waiting();
+  return run_planned(folder_, plan_, settings);
+}
+
+std::vector<RatedDesign> DesignSession::solve_finalists(const std::vector<RatedDesign>& designs) {
+  const int at_once = this->at_once(design_costs(plan_.designs).bytes_on_finer_grid);
+  const ThreadLimit limit(limit_of_threads(options_.n_threads(), at_once));
+  FinalistSettings settings = finalist_settings(at_once);
+  settings.waits = waiting();
+  return with_finer_numbers(folder_, designs, plan_.quantities, settings);
+}
+
 int DesignSession::run() {
-  const ThreadLimit one_thread_each(1);
-  RunSettings settings = run_settings();
-  FinalistSettings on_finer_grid = finalist_settings();
-  settings.waits = on_finer_grid.waits = waiting();
-  std::vector<RatedDesign> designs = run_planned(folder_, plan_, settings);
-  if (has_finalists() && !signals_.stop())
-    designs = with_finer_numbers(folder_, designs, plan_.quantities, on_finer_grid);
-  if (const auto signal = signals_.stop())
-    return designs.empty() ? end_of_stopped(exit_nothing_saved) : end_of_stopped(128 + *signal);
+  if (plan_.designs.empty()) return write({});
+  if (!standing(folder_, plan_).due.empty())
+    print_lines(stderr, costs_text(plan_, options_.n_threads(), !options_.without_errors));
+  std::vector<RatedDesign> designs = run_all();
+  if (has_finalists() && !signals_.stop()) designs = solve_finalists(designs);
+  if (const auto signal = signals_.stop()) return end_of_stopped(128 + *signal);
   return write(designs);
 }
 
 int DesignSession::run_only(const std::string& name) {
-  const ThreadLimit one_thread_each(1);
+  const ThreadLimit all_threads(options_.n_threads());
   bool is_left_out = false;
-  RunSettings settings = run_settings();
+  RunSettings settings = run_settings(1);
   settings.left_out = [&, report = settings.left_out](const Design& design, const std::string& why) {
     is_left_out = true;
     report(design, why);
@@ -192,7 +205,7 @@ bool DesignSession::run_next_step(const std::string& name, const RunSettings& se
   for (const int i : finalists.due) {
     const RatedDesign& one = finalists.designs[i];
     if (one.design.name != name) continue;
-    return solve_on_finer_grid(folder_, {one}, finalist_settings()).empty();
+    return solve_on_finer_grid(folder_, {one}, finalist_settings(1)).empty();
   }
   return false;
 }

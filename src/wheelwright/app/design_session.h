@@ -33,6 +33,9 @@ class DesignSession {
   DesignSession(std::filesystem::path folder, DesignPlan plan, const WorkOptions& options,
                 const Signals& signals, const Stopwatch& watch);
 
+  /// Prints what the designs will cost, and how they are run.
+  int show_plan() const;
+
   /// Runs all designs, solves the finalists on a finer grid unless no errors are wanted, and collects.
   int run();
 
@@ -45,8 +48,12 @@ class DesignSession {
  private:
   bool is_time_over() const;
   bool has_finalists() const;
-  RunSettings run_settings();
-  FinalistSettings finalist_settings();
+  /// How many designs of so many bytes of memory run at once.
+  int at_once(double bytes) const;
+  RunSettings run_settings(int at_once);
+  FinalistSettings finalist_settings(int at_once);
+  std::vector<RatedDesign> run_all();
+  std::vector<RatedDesign> solve_finalists(const std::vector<RatedDesign>& designs);
   void show(const Design& design, const DesignResult& result) const;
   void show_finalist(const RatedDesign& finalist) const;
   /// The next step of a design. False if none is due.

@@ -6,23 +6,13 @@
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/design_session.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/lock_warning.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/design/explore/plan.h"
-#include "wheelwright/files/file_content.h"
-#include "wheelwright/run/checkpoints/lock_reach.h"
 
 namespace wheelwright {
 namespace {
-
-void warn_of_local_locks(const std::string& folder) {
-  const auto place = std::filesystem::absolute(folder).lexically_normal();
-  if (const auto why = why_locks_are_local(file_content("/proc/self/mountinfo"), place))
-    print_warning(stderr,
-                  fmt::format("{}: its locks do not reach other machines ({}): run this command on one "
-                              "machine only, or mount the folder with locks that all machines see",
-                              folder, *why));
-}
 
 class DesignsCommand : public Subcommand {
  public:

@@ -5,9 +5,11 @@
 #include "wheelwright/app/design_folder.h"
 #include "wheelwright/app/design_session.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/lock_warning.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/design/explore/costs.h"
 #include "wheelwright/run/results/run_title.h"
 
 namespace wheelwright {
@@ -33,7 +35,6 @@ class ExploreCommand : public Subcommand {
     Signals signals;
     const auto c = read_or_report(case_file_);
     if (!c) return exit_usage;
-    if (!is_plane_or_report(name(), *c, case_file_)) return exit_refused;
     if (!may_compute(name(), *c, case_file_, work_.threads)) return exit_refused;
     const auto quantities = plan_.chosen_quantities(*c);
     if (!quantities) {
@@ -44,14 +45,15 @@ class ExploreCommand : public Subcommand {
     wanted_.quantities = *quantities;
     const DesignFolder place{name(), plan_.folder_for(*c, "-explore"), settings(*c)};
     if (!place.may_be_used()) return exit_refused;
+    warn_of_local_locks(place.folder);
     auto plan = place.known_plan(*quantities);
     if (!plan) {
       auto planned = place.planned([&] { return new_plan(*c, signals); });
       if (!planned) return planned.failure();
       plan = *std::move(planned);
     }
-    if (plan_.only_plans) return print_plan(place.folder, *plan), exit_done;
-    return DesignSession(place.folder, *std::move(plan), work_, signals, watch_).run();
+    DesignSession session(place.folder, *std::move(plan), work_, signals, watch_);
+    return plan_.only_plans ? session.show_plan() : session.run();
   }
 
  private:
@@ -65,10 +67,11 @@ class ExploreCommand : public Subcommand {
       return exit_nothing_saved;
     }
     if (!designs) return report_failure(name(), designs.failure());
+    const bool solves_finalists = c.output.errors == ErrorEstimates::estimated && !why_no_finalists(*designs);
     return DesignPlan{.name = name(),
                       .title = run_title(c),
                       .has_previews = true,
-                      .solves_finalists = c.output.errors == ErrorEstimates::estimated,
+                      .solves_finalists = solves_finalists,
                       .is_complete = !must_end(),
                       .quantities = wanted_.quantities,
                       .designs = *std::move(designs)};

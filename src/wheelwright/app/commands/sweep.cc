@@ -10,11 +10,13 @@
 #include "wheelwright/app/design_folder.h"
 #include "wheelwright/app/design_session.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/lock_warning.h"
 #include "wheelwright/app/number_list.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/design/explore/costs.h"
 #include "wheelwright/run/results/run_title.h"
 
 namespace wheelwright {
@@ -61,7 +63,6 @@ class SweepCommand : public Subcommand {
     }
     const auto c = read_or_report(case_file_);
     if (!c) return exit_usage;
-    if (!is_plane_or_report(name(), *c, case_file_)) return exit_refused;
     auto designs = sweep_designs(*c, read_case(case_file_).given_cells, case_file_, keys);
     if (!designs) {
       print_err("wheelwright {}: {}\n", name(), designs.failure().text);
@@ -81,20 +82,23 @@ class SweepCommand : public Subcommand {
     const DesignFolder place{name(), plan_.folder_for(c, "-sweep"),
                              fmt::format("{}\n\n", fmt::join(texts_, "\n")) + to_toml(c)};
     if (!place.may_be_used()) return exit_refused;
+    warn_of_local_locks(place.folder);
     auto plan = place.known_plan(*quantities);
     if (!plan) {
       auto planned = place.planned([&]() -> Expected<DesignPlan, int> {
+        const bool solves_finalists =
+            c.output.errors == ErrorEstimates::estimated && !why_no_finalists(designs);
         return DesignPlan{.name = name(),
                           .title = run_title(c),
-                          .solves_finalists = c.output.errors == ErrorEstimates::estimated,
+                          .solves_finalists = solves_finalists,
                           .quantities = *quantities,
                           .designs = std::move(designs)};
       });
       if (!planned) return planned.failure();
       plan = *std::move(planned);
     }
-    if (plan_.only_plans) return print_plan(place.folder, *plan), exit_done;
-    return DesignSession(place.folder, *std::move(plan), work_, signals, watch_).run();
+    DesignSession session(place.folder, *std::move(plan), work_, signals, watch_);
+    return plan_.only_plans ? session.show_plan() : session.run();
   }
 
   std::string case_file_;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/design/explore/shared_work.h"
 #include "wheelwright/files/atomic_file.h"
@@ -22,9 +23,6 @@ namespace wheelwright {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Shapes of a preview whose run does not start on a coarser grid.
-constexpr int shapes_of_preview = 15;
 
 fs::path result_file(const fs::path& designs, const Design& design, Progression progression) {
   return designs /
@@ -47,15 +45,16 @@ class StopOnce {
 };
 
 /// Stops a run where its preview ends: on the case's grid after the coarser ones, or after a few shapes.
-class EndOfPreview : public Observer<2> {
+template <int dim>
+class EndOfPreview : public Observer<dim> {
  public:
   explicit EndOfPreview(CommandQueue& commands) : commands_(commands) {}
 
-  void operator()(const Event<2>& event, const RunView<2>& run) override {
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override {
     if (const auto* started = std::get_if<RunStarted>(&event); started && started->resumed_after)
       resume_after(*started->resumed_after, run);
     if (std::holds_alternative<GridChanged>(event)) has_changed_grid_ = true;
-    const auto* done = std::get_if<TrialDone<2>>(&event);
+    const auto* done = std::get_if<TrialDone<dim>>(&event);
     if (!done || done->trial.verdict != Verdict::accepted || run.study.level > 0 || is_over_) return;
     if (has_changed_grid_ || done->state.iteration >= shapes_of_preview) end();
   }
@@ -64,7 +63,7 @@ class EndOfPreview : public Observer<2> {
 
  private:
   /// A process may have died after the last shape of the preview, and before its result was stored.
-  void resume_after(int shape, const RunView<2>& run) {
+  void resume_after(int shape, const RunView<dim>& run) {
     if (run.study.level > 0 || shape == 0) return;
     has_changed_grid_ = run.study.source.optimizer.coarse_levels > 0;
     if (has_changed_grid_ || shape >= shapes_of_preview) end();
@@ -92,6 +91,7 @@ double largest_violation(const nlohmann::json& bounds) {
 }
 
 /// Reads the numbers of the last shape that a run wrote to its folder.
+template <int dim>
 void read_summary(const fs::path& folder, const Case& c, DesignResult& result) {
   if (!is_there(folder / "summary.json")) return;
   const auto summary = nlohmann::json::parse(file_content(folder / "summary.json"));
@@ -103,10 +103,10 @@ void read_summary(const fs::path& folder, const Case& c, DesignResult& result) {
   const auto read = [&](const std::string& key) {  // some numbers exist only for some wheels
     if (after.contains(key) && after[key].is_number()) numbers[key] = after[key].get<double>();
   };
-  for (const WheelNumber<2>& number : wheel_numbers<2>()) read(number.key);
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) read(number.key);
   for (const std::string& layer : names_of_layers(c))
-    for (const WheelNumber<2>& number : layer_numbers<2>(layer)) read(number.key);
-  for (const Quantity& own : c.vocabulary.quantities.own()) read(number_key(own, 2));
+    for (const WheelNumber<dim>& number : layer_numbers<dim>(layer)) read(number.key);
+  for (const Quantity& own : c.vocabulary.quantities.own()) read(number_key(own, dim));
   if (after.contains("load_cases"))
     for (const auto& [load_case, of_case] : after["load_cases"].items())
       for (const auto& [key, value] : of_case.items())
@@ -122,43 +122,46 @@ struct DesignRun {
 };
 
 /// The outcome if the folder cannot be used.
-DesignRun without_folder(const NotBegun<2>& reason, const fs::path& folder) {
+template <int dim>
+DesignRun without_folder(const NotBegun<dim>& reason, const fs::path& folder) {
   if (const auto* in_use = std::get_if<FolderInUse>(&reason)) return {.holder = *in_use};
   return {.fault = fmt::format("{} cannot be used: its files belong to another design, or are corrupted",
                                folder.string())};
 }
 
-Expected<Run<2>, NotBegun<2>> begun_or_resumed(const Design& design, const fs::path& folder) {
-  if (is_there(folder / "case.toml")) return Run<2>::resume(with_own_drawings(design.source), folder);
-  return Run<2>::begin(design.source, folder);
+template <int dim>
+Expected<Run<dim>, NotBegun<dim>> begun_or_resumed(const Design& design, const fs::path& folder) {
+  if (is_there(folder / "case.toml")) return Run<dim>::resume(with_own_drawings(design.source), folder);
+  return Run<dim>::begin(design.source, folder);
 }
 
+template <int dim>
 DesignRun run_design(const Design& design, const fs::path& folder, Progression progression,
                      const std::function<bool()>& stop_requested) {
   DesignResult result{progression, ""};
-  auto run = begun_or_resumed(design, folder);
+  auto run = begun_or_resumed<dim>(design, folder);
   if (run) {
     CommandQueue commands;
     commands.add_source(StopOnce(stop_requested));
-    const EndOfPreview* end = nullptr;
+    const EndOfPreview<dim>* end = nullptr;
     if (progression == Progression::preview) {
-      auto observer = std::make_unique<EndOfPreview>(commands);
+      auto observer = std::make_unique<EndOfPreview<dim>>(commands);
       end = observer.get();
       run->add(std::move(observer));
     }
-    const RunResult<2> ended = run->execute(commands);
+    const RunResult<dim> ended = run->execute(commands);
     const bool is_end_of_preview = end && end->is_over();
     if (ended.reason == StopReason::stop_requested && !is_end_of_preview) return {};
     result.status = is_end_of_preview ? "preview" : to_string(ended.reason);
-  } else if (const auto* finished = std::get_if<AlreadyFinished<2>>(&run.failure())) {
+  } else if (const auto* finished = std::get_if<AlreadyFinished<dim>>(&run.failure())) {
     result.status = to_string(*finished->end.finished);
   } else if (const auto* failure = std::get_if<Failure>(&run.failure())) {
     result.status = to_string(failure->reason);
     return {.result = result};
   } else {
-    return without_folder(run.failure(), folder);
+    return without_folder<dim>(run.failure(), folder);
   }
-  read_summary(folder, design.source, result);
+  read_summary<dim>(folder, design.source, result);
   return {.result = result};
 }
 
@@ -179,7 +182,9 @@ class SharedRuns {
     if (const auto known = known_result(folder_, design, progression_)) return add(i, *known), std::nullopt;
     if (settings_.stop_requested() || !settings_.may_begin()) return {};
     const fs::path place = folder_ / folder_of_designs;
-    const DesignRun run = run_design(design, place / design.name, progression_, settings_.stop_requested);
+    const DesignRun run = in_dimension_of(design.source, [&](auto dim) {
+      return run_design<dim>(design, place / design.name, progression_, settings_.stop_requested);
+    });
     if (!run.fault.empty()) leave_out(i, run.fault);
     if (!run.result) return run.holder;
     write_atomically(result_file(place, design, progression_), to_json(*run.result));

@@ -12,9 +12,12 @@ namespace wheelwright {
 /// Names in the folder of an exploration: the folder of the designs' runs.
 inline constexpr const char* folder_of_designs = "designs";
 
+/// Shapes of a preview whose run does not start on a coarser grid.
+inline constexpr int shapes_of_preview = 15;
+
 /// Settings for running designs.
 struct RunSettings {
-  int threads = 1;  ///< number of concurrent runs of one thread each; results do not depend on it
+  int threads = 1;  ///< number of concurrent runs; results do not depend on it
   /// Called several times a second: whether to save and stop.
   std::function<bool()> stop_requested = [] { return false; };
   /// Called before each design: whether there is time for another one.

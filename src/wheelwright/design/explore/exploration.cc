@@ -6,6 +6,7 @@
 #include <set>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/design/explore/pareto.h"
@@ -14,6 +15,7 @@
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/run/study/study.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 namespace {
@@ -22,9 +24,10 @@ namespace fs = std::filesystem;
 
 /// J_e / J_p2 of a case's initial shape, both summed over its load positions; 0 if the contact is the same at
 /// all positions up to rounding, so that there is nothing to even out.
+template <int dim>
 Expected<double> weight_of_evenness(Case c) {
   c.objective.strain_energy = c.objective.uniformity_dual = 1;
-  const auto study = make_study<2>(c);
+  const auto study = make_study<dim>(c);
   if (!study) return study.failure();
   const auto evaluated = evaluate_of(*study)(study->initial, nullptr);
   if (!evaluated) return evaluated.failure();
@@ -50,12 +53,14 @@ std::string design_name(std::size_t i) { return fmt::format("{:03}", i + 1); }
 
 constexpr double outline_size = 100;  ///< of the wheel in its path
 
-/// The wheel in a run's folder, as an SVG path.
+/// The wheel in a run's folder, in 3D the middle of its width, as an SVG path.
+template <int dim>
 std::string outline(const fs::path& file) {
-  const auto psi = parse_level_set_file<2>(file_content(file));
+  const auto psi = parse_level_set_file<dim>(file_content(file));
   if (!psi) return {};
-  const PolarGrid<2>& grid = psi->lattice.grid();
-  return material_path(grid, material_contours(*psi, 1), 0.5 * outline_size / grid.outer_radius, 1,
+  const LevelSet<2> section = mid_plane_section(*psi);
+  const PolarGrid<2>& grid = section.lattice.grid();
+  return material_path(grid, material_contours(section, 1), 0.5 * outline_size / grid.outer_radius, 1,
                        0.01 * grid.outer_radius);
 }
 
@@ -89,6 +94,11 @@ Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationSett
     return Failure{FailureReason::empty_shape,
                    fmt::format("the volume of the designs is undefined; give the case holes{}",
                                holds_volume(c) ? " or volume.target" : "")};
+  if (c.optimizer.made == Manufacture::turned)
+    return Failure{
+        FailureReason::unsupported_model,
+        "starts have holes and spokes, which a turned wheel cannot have; sweep the radii or depths "
+        "of its grooves instead"};
   std::vector<Start> starts;
   if (has_holes(c)) starts.push_back({"the case's own shape", c});
   FailedAttempts failed;
@@ -119,7 +129,8 @@ Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationSe
   double weight = 0;
   if (!starts->empty() && minimizes_weighted_sum(c) &&
       std::ranges::any_of(wanted.quantities, &RankedQuantity::is_of_evenness)) {
-    const auto found = weight_of_evenness(starts->front().source);
+    const auto found =
+        in_dimension_of(c, [&](auto dim) { return weight_of_evenness<dim>(starts->front().source); });
     if (!found) return found.failure();
     weight = *found;
   }
@@ -137,10 +148,13 @@ Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationSe
   return designs;
 }
 
+int number_of_chosen(int n_previews) { return (n_previews + 2) / 3; }
+
 std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
                                 const std::vector<RankedQuantity>& quantities) {
   std::vector<int> order = spread_order(rated_points(previews, quantities));
-  order.resize(std::min(order.size(), (previews.size() + 2) / 3));
+  const int n = number_of_chosen(static_cast<int>(previews.size()));
+  order.resize(std::min(order.size(), static_cast<std::size_t>(n)));
   std::ranges::sort(order);
   return order;
 }
@@ -225,7 +239,8 @@ std::vector<RankedDesign> write_designs(const fs::path& folder, const DesignPlan
                                         const std::vector<RatedDesign>& designs) {
   std::vector<RankedDesign> order = ranked(designs, plan.quantities);
   for (RankedDesign& one : order) {
-    one.outline = outline(folder / folder_of_designs / one.design.name / saved_shape_file);
+    const fs::path shape = folder / folder_of_designs / one.design.name / saved_shape_file;
+    one.outline = in_dimension_of(one.design.source, [&](auto dim) { return outline<dim>(shape); });
     if (!one.outline.empty()) one.layers = layers_in_outline(one.design.source);
   }
   write_atomically(folder / (plan.name + ".csv"), designs_csv(order));

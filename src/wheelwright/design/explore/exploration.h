@@ -43,12 +43,15 @@ struct DrawingSettings {
 
 /// The designs that an exploration tries: the same for the same case and settings; only the first ones if
 /// generation had to stop. There are fewer than planned if all kinds of starts fail in turn. Fails if the
-/// case's own shape cannot be solved, and with empty_shape if the case defines no volume for its designs or
-/// no start was found.
+/// case's own shape cannot be solved, with empty_shape if the case defines no volume for its designs or no
+/// start was found, and with unsupported_model for a turned wheel.
 Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationSettings& wanted,
                                               const DrawingSettings& settings = {});
 
-/// Which of the previewed designs are optimized to the end: about a third of them, in spread_order().
+/// How many of so many previewed designs are chosen to be optimized to the end: about a third.
+int number_of_chosen(int n_previews);
+
+/// Which of the previewed designs are optimized to the end, in spread_order().
 std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
                                 const std::vector<RankedQuantity>& quantities);
 

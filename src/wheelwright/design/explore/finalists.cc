@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wheelwright/case/design_radii.h"
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/design/explore/design_runs.h"
 #include "wheelwright/design/explore/pareto.h"
@@ -60,15 +61,17 @@ double seconds_per_trial(const fs::path& run) {
 }
 
 /// The last shape of a run on the design's own grid; nothing if the run ended on a coarser one.
-std::optional<LevelSet<2>> last_shape(const Design& design, const fs::path& run) {
-  const auto shape = parse_level_set_file<2>(file_content(run / saved_shape_file));
+template <int dim>
+std::optional<LevelSet<dim>> last_shape(const Design& design, const fs::path& run) {
+  const auto shape = parse_level_set_file<dim>(file_content(run / saved_shape_file));
   return shape && level_of(design.source, *shape) == 0 ? std::optional(*shape) : std::nullopt;
 }
 
 /// Adds the numbers of a wheel on the finer grid under one load; `suffix` of its keys.
-void add_numbers(const DescribedWheel<2>& wheel, const std::string& load_case, double refinement,
+template <int dim>
+void add_numbers(const DescribedWheel<dim>& wheel, const std::string& load_case, double refinement,
                  const DesignResult& result, FinerNumbers& finer) {
-  for (const WheelNumber<2>& number : numbers_of(wheel)) {
+  for (const WheelNumber<dim>& number : numbers_of(wheel)) {
     const std::string key = load_case.empty() ? number.key : key_in_case(number.key, load_case);
     const double here = result.value(key), there = known_value(number, wheel).value_or(NAN);
     if (!std::isfinite(here) || !std::isfinite(there)) continue;
@@ -94,23 +97,25 @@ SolvedDesign unsolved(std::string why, bool may_be_stored) {
   return {FinerNumbers{.failure = std::move(why)}, may_be_stored};
 }
 
+template <int dim>
 SolvedDesign solved_on_finer_grid(const RatedDesign& of, const fs::path& run, const Interrupt& interrupt) {
-  const auto shape = last_shape(of.design, run);
+  const auto shape = last_shape<dim>(of.design, run);
   if (!shape) return unsolved("its run did not end on its own grid", false);
   const Case c = with_levels_of_results(*with_radii_of(of.design.source, shape->lattice.grid()));
-  const auto study = make_study<2>(c);
+  if (auto why = excess_of_finer_grid<dim>(c)) return unsolved(*std::move(why), true);
+  const auto study = make_study<dim>(c);
   if (!study) return unsolved(to_string(study.failure()), true);
-  const auto finer = finer_shape<2>(c, *study->solver, *shape);
+  const auto finer = finer_shape<dim>(c, *study->solver, *shape);
   if (!finer) return unsolved(finer.failure(), false);  // there may be more memory the next time
   const auto states = finer->solver->states(
-      finer->shape, positions_of_results<2>(*study, *finer->solver, finer->shape), interrupt);
-  const auto wheel = finer_wheel<2>(c, study->load_cases, *finer, states);
+      finer->shape, positions_of_results<dim>(*study, *finer->solver, finer->shape), interrupt);
+  const auto wheel = finer_wheel<dim>(c, study->load_cases, *finer, states);
   if (!wheel) return unsolved(wheel.failure(), states.failure().reason != FailureReason::interrupted);
   SolvedDesign solved{FinerNumbers{.grid = cells_text(wheel->wheel.grid)}};
   add_numbers(wheel->wheel, "", wheel->refinement, of.result, solved.numbers);
-  for (const DescribedWheel<2>& other : wheel->wheel.others)
+  for (const DescribedWheel<dim>& other : wheel->wheel.others)
     add_numbers(other, other.load_case, wheel->refinement, of.result, solved.numbers);
-  if (const auto bounds = bounds_of<2>(c, study->load_cases, *finer->solver, finer->shape, states))
+  if (const auto bounds = bounds_of<dim>(c, study->load_cases, *finer->solver, finer->shape, states))
     solved.numbers.violation = largest_violation(*bounds);
   return solved;
 }
@@ -136,8 +141,9 @@ class SharedSolutions {
     if (!one.finer && settings_.stop_requested()) return {};
     bool is_stored = one.finer.has_value();
     if (!one.finer) {
-      SolvedDesign solved =
-          solved_on_finer_grid(one, place_ / one.design.name, Interrupt(settings_.stop_requested));
+      SolvedDesign solved = in_dimension_of(one.design.source, [&](auto dim) {
+        return solved_on_finer_grid<dim>(one, place_ / one.design.name, Interrupt(settings_.stop_requested));
+      });
       is_stored = solved.may_be_stored;
       if (is_stored) write_atomically(file, to_json(solved.numbers));
       one.finer = std::move(solved.numbers);

@@ -27,7 +27,7 @@ std::vector<int> finalists(const std::vector<RatedDesign>& designs,
 
 /// Settings for solving designs on a finer grid.
 struct FinalistSettings {
-  int threads = 1;  ///< number of designs at a time, one thread each; results do not depend on it
+  int threads = 1;  ///< number of designs at a time; results do not depend on it
   /// Called several times a second, by several threads: whether to stop.
   std::function<bool()> stop_requested = [] { return false; };
   /// Called before designs are solved that were not yet, with the time that this takes about [s].

@@ -7,13 +7,13 @@
 
 namespace wheelwright {
 
-/// Designs are 2D wheels. Lengths of good designs that differ in evenness differ by micrometres.
-RankedQuantity ranked(const Quantity& quantity) {
+// Lengths of good designs that differ in evenness differ by micrometres.
+RankedQuantity ranked(const Quantity& quantity, int dimension) {
   const bool is_fine = quantity->is_of_evenness && kind(quantity) == UnitKind::length;
   return {.word = of_part(quantity->ranked_as.empty() ? quantity->name : quantity->ranked_as, quantity->part),
           .label = label(quantity),
-          .shown = is_fine ? micrometres : shown_unit(kind(quantity), 2),
-          .key = number_key(quantity, 2),
+          .shown = is_fine ? micrometres : shown_unit(kind(quantity), dimension),
+          .key = number_key(quantity, dimension),
           .is_larger_better = quantity->is_larger_better,
           .is_of_evenness = quantity->is_of_evenness,
           .is_of_shape = quantity->of == Positions::none};
@@ -31,7 +31,7 @@ constexpr std::array names_of_ranked{
 const std::vector<RankedQuantity>& ranked_quantities() {
   static const std::vector<RankedQuantity> all = [] {
     std::vector<RankedQuantity> quantities;
-    for (const char* name : names_of_ranked) quantities.push_back(ranked(built_in(name)));
+    for (const char* name : names_of_ranked) quantities.push_back(ranked(built_in(name), 2));
     return quantities;
   }();
   return all;
@@ -40,7 +40,8 @@ const std::vector<RankedQuantity>& ranked_quantities() {
 std::vector<RankedQuantity> ranked_quantities(const Case& c) {
   std::vector<RankedQuantity> quantities;
   const auto add = [&](const Quantity& quantity) {
-    if (unmet_needs_of_materials(c, quantity).empty()) quantities.push_back(ranked(quantity));
+    if (unmet_needs_of_materials(c, quantity).empty())
+      quantities.push_back(ranked(quantity, c.wheel.dimension));
   };
   for (const char* name : names_of_ranked) add(built_in(name));
   for (const std::string& layer : names_of_layers(c))
@@ -52,7 +53,8 @@ std::vector<RankedQuantity> ranked_quantities(const Case& c) {
 
 std::vector<Need> unmet_needs_of_ranked(const Case& c, std::string_view word) {
   for (const char* name : names_of_ranked)
-    if (ranked(built_in(name)).word == word) return unmet_needs_of_materials(c, built_in(name));
+    if (ranked(built_in(name), c.wheel.dimension).word == word)
+      return unmet_needs_of_materials(c, built_in(name));
   return {};
 }
 

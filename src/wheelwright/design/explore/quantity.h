@@ -22,9 +22,10 @@ struct RankedQuantity {
   bool is_of_shape;     ///< the same under every load
 };
 
-RankedQuantity ranked(const Quantity& quantity);
+/// Of designs in that dimension.
+RankedQuantity ranked(const Quantity& quantity, int dimension);
 
-/// All built-in ones.
+/// All built-in ones, of 2D wheels.
 const std::vector<RankedQuantity>& ranked_quantities();
 
 /// The quantities that the designs of a case have. They contain those of its layers and of its program, and
@@ -34,7 +35,7 @@ std::vector<RankedQuantity> ranked_quantities(const Case& c);
 /// The constants of materials that a case does not give and the built-in one with that word needs.
 std::vector<Need> unmet_needs_of_ranked(const Case& c, std::string_view word);
 
-/// The built-in one with that word or name, or null.
+/// The built-in one of 2D wheels with that word, or null.
 const RankedQuantity* find_quantity(std::string_view word);
 
 }  // namespace wheelwright

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/design/explore/design_runs.h"
 #include "wheelwright/design/explore/pareto.h"
@@ -46,14 +47,15 @@ std::vector<std::string> number_keys(const std::vector<RankedDesign>& designs) {
     keys.push_back(key);
     if (!is_of_shape) under_load.push_back(key);
   };
-  for (const auto& number : wheel_numbers<2>()) add(number.key, number.is_of_shape);
-  if (!designs.empty()) {
-    const Case& c = designs.front().design.source;
+  if (designs.empty()) return keys;
+  const Case& c = designs.front().design.source;
+  in_dimension_of(c, [&](auto dim) {
+    for (const auto& number : wheel_numbers<dim>()) add(number.key, number.is_of_shape);
     for (const std::string& layer : names_of_layers(c))
-      for (const auto& number : layer_numbers<2>(layer)) add(number.key, number.is_of_shape);
+      for (const auto& number : layer_numbers<dim>(layer)) add(number.key, number.is_of_shape);
     for (const Quantity& own : c.vocabulary.quantities.own())
-      add(number_key(own, 2), own->of == Positions::none);
-  }
+      add(number_key(own, dim), own->of == Positions::none);
+  });
   for (const std::string& load_case : load_cases_of(designs))
     for (const std::string& key : under_load) keys.push_back(key_in_case(key, load_case));
   return keys;

@@ -9,6 +9,7 @@
 
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
@@ -122,7 +123,8 @@ DrawnStart attempt(const Case& c, const StartRange& range, const std::optional<D
   Case result = drawn(c, range, *draft, *size);
   if (std::string problem = refusal(result); !problem.empty())
     return {{}, {.refused = 1, .refusal = std::move(problem)}};
-  if (!lost_on_the_grid<2>(result).empty()) return {{}, {.unresolved = 1}};
+  if (in_dimension_of(c, [&](auto dim) { return !lost_on_the_grid<dim>(result).empty(); }))
+    return {{}, {.unresolved = 1}};
   result.title = draft->text;
   return {Start{draft->text, std::move(result)}, {}};
 }
@@ -130,8 +132,10 @@ DrawnStart attempt(const Case& c, const StartRange& range, const std::optional<D
 }  // namespace
 
 double initial_volume(const Case& c) {
-  const LevelSet<2> shape = initial_shape<2>(c);
-  return volume_fraction<2>(shape.lattice.grid(), material_measure(shape));
+  return in_dimension_of(c, [&](auto dim) {
+    const LevelSet<dim> shape = initial_shape<dim>(c);
+    return volume_fraction<dim>(shape.lattice.grid(), material_measure(shape));
+  });
 }
 
 FailedAttempts& FailedAttempts::operator+=(const FailedAttempts& other) {

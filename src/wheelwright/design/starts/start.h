@@ -10,7 +10,7 @@
 namespace wheelwright {
 
 // Initial shapes for optimizations of the same wheel: rings of holes, slots, ellipses and spokes with random
-// numbers and places, all of the same volume.
+// numbers and places, all of the same volume. In 3D they are those of the plane, repeated along the axle.
 
 /// Common properties of the starts of an exploration.
 struct StartRange {

@@ -47,12 +47,17 @@ double memory_on(const Case& c, const RollingModel<dim>& model) {
   return estimated_memory(problem_size(with_grid_of(c, model)));
 }
 
-/// Why a finer grid costs too much; empty if it does not.
+/// Why a finer grid has too many unknowns; nothing if it has not.
 template <int dim>
-std::string excess(const Case& c, const RollingModel<dim>& finer) {
+std::optional<std::string> excess(const RollingModel<dim>& finer) {
   const double unknowns = dof_bound(finer), most = max_unknowns_of_finer_grid<dim>;
-  if (unknowns > most)
-    return fmt::format("the finer grid would have {:.2g} unknowns, more than {:.2g}", unknowns, most);
+  if (unknowns <= most) return {};
+  return fmt::format("the finer grid would have {:.2g} unknowns, more than {:.2g}", unknowns, most);
+}
+
+/// Why a finer grid does not fit into the memory; empty if it does.
+template <int dim>
+std::string lack_of_memory(const Case& c, const RollingModel<dim>& finer) {
   const double needed = memory_on(c, finer);
   const auto available = available_memory();
   if (!available || needed <= *available) return "";
@@ -89,10 +94,16 @@ double memory_on_finer_grid(const Case& c) {
 }
 
 template <int dim>
+std::optional<std::string> excess_of_finer_grid(const Case& c) {
+  return excess(on_finer_grid(rolling_model<dim>(c)));
+}
+
+template <int dim>
 Expected<FinerShape<dim>, std::string> finer_shape(const Case& c, const StateSolver<dim>& solver,
                                                    const LevelSet<dim>& psi) {
   const RollingModel<dim> model = on_finer_grid(solver.model());
-  if (std::string text = excess(c, model); !text.empty()) return text;
+  if (auto text = excess(model)) return *std::move(text);
+  if (std::string text = lack_of_memory(c, model); !text.empty()) return text;
   auto finer = make_solver(model);
   if (!finer) return why_not_on_finer_grid(finer.failure());
   return FinerShape<dim>{*std::move(finer), on_grid(psi, model.grid),
@@ -169,6 +180,7 @@ void set_errors(const Case& c, const LoadCases<dim>& cases, const FinerShape<dim
                                               const LevelSet<dim>&);                      \
   template decltype(cells_text<dim>) cells_text<dim>;                                     \
   template decltype(memory_on_finer_grid<dim>) memory_on_finer_grid<dim>;                 \
+  template decltype(excess_of_finer_grid<dim>) excess_of_finer_grid<dim>;                 \
   template decltype(finer_shape<dim>) finer_shape<dim>;                                   \
   template decltype(solved_finer_shape<dim>) solved_finer_shape<dim>;                     \
   template decltype(finer_wheel<dim>) finer_wheel<dim>;                                   \

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "wheelwright/base/interrupt.h"
@@ -40,6 +41,11 @@ struct FinerShape {
 /// The maximum number of unknowns of a finer grid.
 template <int dim>
 inline constexpr double max_unknowns_of_finer_grid = dim == 2 ? 5e6 : 1e6;
+
+/// Why a case has no finer grid: its unknowns would be too many; nothing if they are not. Does not depend on
+/// the memory.
+template <int dim>
+std::optional<std::string> excess_of_finer_grid(const Case& c);
 
 /// A shape of the solver's grid on the next finer one (quantities/analysis/finer_grid.h); or in one line why
 /// not: its unknowns are too many, the memory too small, or the solver refuses it.
