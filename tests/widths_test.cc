@@ -7,6 +7,7 @@
 #include "tests/deformations.h"
 #include "wheelwright/linalg/dense.h"
 #include "wheelwright/shape/evolution/deformation_space.h"
+#include "wheelwright/shape/evolution/evolver.h"
 #include "wheelwright/shape/evolution/spline_level_set.h"
 #include "wheelwright/shape/evolution/transport.h"
 #include "wheelwright/shape/geometry/mirror.h"
@@ -154,6 +155,37 @@ TEST(Widths, AreThoseWithinReach) {
     EXPECT_NEAR(widths[0].place[1], 0.13, 0.01);
     EXPECT_DOUBLE_EQ(largest_gap(widths), widths[0].gap());
   }
+}
+
+/// If only a corner is far too sharp, it is rounded, and a wall that hardly lacks anything gets its width but
+/// not more.
+TEST(Widths, RoundingACornerHardlyThickensWalls) {
+  const auto lattice = lattice_of<2>();
+  const double h = lattice.grid().resolution();
+  const FeatureSize size{.wall = 1.42 * h, .gap = 0, .radius = 0.75 * h};
+  auto psi = make_level_set<2>(
+      lattice, std::vector<Circle>{{0.235, 0.1, 0.018}, {0.235 + 0.036 + 1.2 * h, 0.1, 0.018}});
+  const auto corners = shape_with_corners<2>(0.012, 0);
+  for (std::size_t node = 0; node < psi.values.size(); ++node)
+    psi.values[node] = std::max(psi.values[node], corners.values[node]);
+  psi = spline_level_set(spline_coefficients(psi));
+  const auto widest_gap = [&](const LevelSet<2>& shape, WidthKind kind) {
+    double gap = -1;
+    for (const auto& width : narrow_widths(shape, size, 0.5 * h))
+      if (width.kind == kind) gap = std::max(gap, width.gap());
+    return gap;
+  };
+  ASSERT_GT(widest_gap(psi, WidthKind::corner), 0.2);
+  ASSERT_GT(widest_gap(psi, WidthKind::wall), 0.001);
+  ASSERT_LT(widest_gap(psi, WidthKind::wall), 0.1);
+  const Evolver<2> evolver(lattice, {.velocity = {},
+                                     .bands = {},
+                                     .space = ShapeSpace::spline,
+                                     .deformation = DeformationKind::normal_speed});
+  const auto made = evolver.measured(psi, size);
+  ASSERT_TRUE(made) << made.failure().detail;
+  EXPECT_LE(widest_gap(made->shape, WidthKind::corner), 1e-3);
+  EXPECT_NEAR(widest_gap(made->shape, WidthKind::wall), 0, 5e-3);
 }
 
 /// The widths of a mirror-symmetric shape are symmetric as a set, so that what is derived from them is.

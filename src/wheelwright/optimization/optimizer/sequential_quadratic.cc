@@ -146,7 +146,12 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
     span.loads.back().resize(size, 0.0);
   }
   for (std::size_t k = 0; k < space_.n_radii(); ++k) span.loads.push_back(space_.unit_load(size, k));
-  for (const auto& load : span.loads) span.deformations.push_back(space_.representative(load));
+  for (std::size_t k = 0; k < span.loads.size(); ++k) {
+    const bool is_known = k < derivatives_.loads.size() && span.loads[k] == derivatives_.loads[k];
+    span.deformations.push_back(is_known ? derivatives_.deformations[k]
+                                         : space_.representative(span.loads[k]));
+  }
+  derivatives_ = span;
   span.loads.insert(span.loads.end(), pairs_.loads.begin(), pairs_.loads.end());
   span.deformations.insert(span.deformations.end(), pairs_.deformations.begin(), pairs_.deformations.end());
   return span;

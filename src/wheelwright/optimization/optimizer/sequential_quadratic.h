@@ -58,6 +58,9 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   std::vector<Width<dim>> widths_;  ///< that a step could bring below their minimum
   BoundaryMotion<dim> motion_;      ///< of the state's shape
   Span pairs_;                      ///< of the state's memory
+  /// Those of the span before, without pairs: most shorter steps and moves with more coefficients held have
+  /// many of the same loads.
+  mutable Span derivatives_;
 };
 
 }  // namespace wheelwright

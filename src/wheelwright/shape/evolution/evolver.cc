@@ -33,6 +33,18 @@ Failure too_narrow(WidthKind kind, const Vec<dim>& place, double minimum) {
   return {FailureReason::too_narrow, fmt::format(fmt::runtime(what), place_text<dim>(place), 1e3 * minimum)};
 }
 
+/// The minimum widths of the kinds of which some place lacks more than this fraction; 0 of the others.
+template <int dim>
+FeatureSize sizes_lacking(double fraction, const std::vector<Width<dim>>& widths, const FeatureSize& size) {
+  const auto size_if_lacking = [&](WidthKind kind, double minimum) {
+    const auto lacks = [&](const auto& width) { return width.kind == kind && width.gap() > fraction; };
+    return std::ranges::any_of(widths, lacks) ? minimum : 0;
+  };
+  return {.wall = size_if_lacking(WidthKind::wall, size.wall),
+          .gap = size_if_lacking(WidthKind::gap, size.gap),
+          .radius = size_if_lacking(WidthKind::corner, size.radius)};
+}
+
 }  // namespace
 
 template <int dim>
@@ -214,8 +226,9 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi
 }
 
 /// Measures the shape, or shifts it to a measure, and widens narrow places until none is left. If much of a
-/// width is missing, or a hole is too small to be detected by its widths, first inserts balls and rounds
-/// corners.
+/// width is missing, first inserts balls, or rounds corners: only those of which so much is missing, because
+/// balls would thicken all walls that just have their width. If a hole is too small to be detected by its
+/// widths, does both.
 template <int dim>
 template <class Measure>
 Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const FeatureSize& size,
@@ -235,7 +248,7 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const 
     if (gap <= enough && !hole) return shape;
     if (repairs < max_repairs && (hole || (turn == 0 && gap > far))) {
       ++repairs;
-      psi = with_features(shape->shape, size);
+      psi = with_features(shape->shape, hole ? size : sizes_lacking(far, widths, size));
       continue;
     }
     if (hole) return too_narrow<dim>(WidthKind::gap, hole->place, size.gap);

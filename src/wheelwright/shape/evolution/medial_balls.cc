@@ -30,24 +30,28 @@ template <int dim>
 MedialBalls<dim>::MedialBalls(const LevelSet<dim>& psi) : psi_(psi) {
   points_ = with_images<dim>(psi.lattice, zero_seeds<dim>(psi_));
   std::vector<Vec<dim>> positions;
-  for (const auto& point : points_) {
-    normals_.push_back(normal_at<dim>(psi_, point));
-    positions.push_back(cartesian_position<dim>(psi.lattice, point));
-  }
+  for (const auto& point : points_) positions.push_back(cartesian_position<dim>(psi.lattice, point));
   if (!points_.empty()) nearest_.emplace(std::move(positions));
+  for (int seed = n_seeds(); seed < 2 * n_seeds(); ++seed)
+    normals_.push_back(normal_at<dim>(psi_, points_[seed]));
+}
+
+template <int dim>
+Vec<dim> MedialBalls<dim>::normal(int index) const {
+  const int seed = index - n_seeds();
+  return seed >= 0 && seed < n_seeds() ? normals_[seed] : normal_at<dim>(psi_, points_[index]);
 }
 
 /// The normal that points out of this side.
 template <int dim>
 Vec<dim> MedialBalls<dim>::outward(int point, Side side) const {
-  return side == Side::holes ? -1.0 * normals_[point] : normals_[point];
+  return side == Side::holes ? -1.0 * normal(point) : normal(point);
 }
 
 template <int dim>
 std::vector<MedialBall<dim>> MedialBalls<dim>::in(Side side, double radius) const {
-  const int n = static_cast<int>(points_.size()) / 3;  // the sector itself is in the middle
   std::vector<MedialBall<dim>> balls;
-  for (int seed = n; seed < 2 * n; ++seed)
+  for (int seed = n_seeds(); seed < 2 * n_seeds(); ++seed)
     if (const auto ball = ball_at(seed, side, radius)) balls.push_back(*ball);
   return balls;
 }

@@ -43,16 +43,18 @@ class MedialBalls {
   const Vec<dim>& point(int index) const { return points_[index]; }
 
   /// The unit outward normal of the material there; Cartesian, body frame.
-  const Vec<dim>& normal(int index) const { return normals_[index]; }
+  Vec<dim> normal(int index) const;
 
  private:
   std::optional<MedialBall<dim>> ball_at(int seed, Side side, double radius) const;
   bool opens_beyond(const MedialBall<dim>& ball, int touched, Side side) const;
   Vec<dim> outward(int point, Side side) const;
+  /// The number of seeds of the sector, which lie between those of the sector before and of the next one.
+  int n_seeds() const { return static_cast<int>(points_.size()) / 3; }
 
   CubicInterpolant<dim> psi_;
   std::vector<Vec<dim>> points_;              ///< the seeds and their images in both neighbouring sectors
-  std::vector<Vec<dim>> normals_;             ///< of the points
+  std::vector<Vec<dim>> normals_;             ///< of the seeds of the sector
   std::optional<NearestPoint<dim>> nearest_;  ///< of the points in the body frame; empty without points
 };
 

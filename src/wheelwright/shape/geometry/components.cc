@@ -94,12 +94,14 @@ class FloodFill {
   explicit FloodFill(const Samples<dim>& samples)
       : samples_(samples),
         lattice_(samples.lattice()),
+        node_angle_(lattice_.node_angle()),
         result_{lattice_, std::vector<int>(lattice_.n_nodes(), -1), {}} {
     stride_[0] = 1;
     if constexpr (dim == 3) stride_[2] = lattice_.nodes()[0];
     stride_[1] = lattice_.nodes_per_line();
     for (int sample = 0; sample < lattice_.nodes_per_line(); ++sample)
-      share_.push_back(share_of(lattice_.node_position(sample)));
+      on_line_.push_back({.share = share_of(lattice_.node_position(sample)),
+                          .polar = lattice_.polar_point(lattice_.node_position(sample))});
     front_.reserve(lattice_.n_nodes());
     for (int first = 0; first < lattice_.n_nodes(); ++first)
       if (result_.of_sample[first] < 0) fill(first);
@@ -208,8 +210,8 @@ class FloodFill {
   }
 
   void add(const std::array<int, dim>& p, Component<dim>& component) const {
-    const Vec<dim> x = lattice_.polar_point(p);
-    const double share = share_[lattice_.index_on_line(p)];
+    auto [share, x] = on_line_[lattice_.index_on_line(p)];
+    x[1] = p[1] * node_angle_;
     component.measure += share;
     component.centre += share * x;
     if (x[0] < component.innermost[0]) component.innermost = x;
@@ -227,7 +229,12 @@ class FloodFill {
   const Samples<dim>& samples_;
   const Lattice<dim>& lattice_;
   std::array<int, dim> stride_;  ///< of the samples' indices
-  std::vector<double> share_;    ///< share_of() the samples at one azimuth
+  struct OnLine {
+    double share;    ///< share_of() the sample
+    Vec<dim> polar;  ///< (radius, 0[, axial])
+  };
+  std::vector<OnLine> on_line_;  ///< the samples at the first azimuth
+  double node_angle_;            ///< of the samples [rad]
   std::vector<Place> front_;
   Components<dim> result_;
 };
