@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 #include "tests/support.h"
 #include "wheelwright/quantities/analysis/position_deformation.h"
@@ -13,7 +15,7 @@
 namespace wheelwright::testing {
 namespace {
 
-constexpr double width = 0.12;
+constexpr double width = 0.12, pi = std::numbers::pi;
 
 RollingModel<2> plane_model(double poissons_ratio) {
   RollingModel<2> model;
@@ -158,6 +160,32 @@ TEST(Prismatic, WithFrictionAndTorqueIsThePlaneWheel) {
   plane.torque = 150 / width;
   expect_equal(results(with_width(plane, 1, SideFaces::symmetric), energy<3>(), 1, 0.0273),
                results(plane, energy<2>(), 1, 0.0273), 1e-6);
+}
+
+/// Derivative of the strain energy of a wheel that is the same all along the axle, in directions that change
+/// along it as the factor does.
+double derivative_along(const RollingModel<3>& model, const std::function<double(double z)>& factor) {
+  const auto problem = RollingProblem<3>::create(model);
+  const LevelSet<3> psi = shape<3>(model.grid, 2, 0.0273);
+  const ShapeFunction<3> function = objective(energy<3>());
+  const auto evaluated = evaluate<3>(*problem, std::span(&function, 1), psi, nullptr);
+  if (!evaluated) throw std::runtime_error(evaluated.failure().detail);
+  std::vector<double> direction;
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<3> p = psi.lattice.polar_point(i);
+    direction.push_back((1 + 0.4 * std::cos(12 * p[1] + 30 * p[0])) * factor(p[2]));
+  }
+  return directional_derivative<3>(evaluated->evaluation.gradient("objective"), psi, direction, model.degree);
+}
+
+// The plane's best shape is stationary among all shapes of the wheel, whichever way it is made.
+TEST(Prismatic, ChangesAlongTheAxleHaveNoEffectToFirstOrder) {
+  const auto model = with_width(plane_model(0.4), 2, SideFaces::symmetric);
+  const double extruded = std::abs(derivative_along(model, [](double) { return 1.0; }));
+  EXPECT_GT(extruded, 0);
+  for (const auto& factor : {std::function([](double z) { return std::cos(pi * z / width); }),
+                             std::function([](double z) { return std::cos(2 * pi * z / width); })})
+    EXPECT_LT(std::abs(derivative_along(model, factor)), 1e-6 * extruded);
 }
 
 /// A wheel under one load position, with so many cells across a sector each way.

@@ -105,5 +105,57 @@ tolerance = 0
   EXPECT_LT(expect_a_sound_run(c), 0.8);
 }
 
+/// The paper's wheel between side faces that do not move along the axle, made in a way.
+Study<3> between_side_faces(const std::string& made) {
+  auto study = make_study<3>(parsed(R"(
+[wheel]
+dimension = 3
+side_faces = "symmetric"
+[contact]
+quadrature_points = 3
+[[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.04
+[grid]
+radial_cells = 14
+angular_cells = 192
+axial_cells = 2
+tread_levels = 1
+[volume]
+target = 0.6614
+[optimizer]
+smoothing = 0.1
+rim_band = 0.0101
+tread_band = 0.0201
+iterations = 60
+made = ")" + made + "\"\n"));
+  if (!study) throw std::runtime_error(study.failure().detail);
+  return *std::move(study);
+}
+
+/// The last accepted state of a run that converges from a shape.
+OptimizationState<3> converged(const Study<3>& study, const LevelSet<3>& initial) {
+  std::optional<OptimizationState<3>> last;
+  const auto outcome = optimize<3>(
+      optimizer_of(study), initial,
+      [&](const Trial<3>& trial, const OptimizationState<3>& state) {
+        if (trial.verdict == Verdict::accepted) last = state;
+      },
+      [] { return false; });
+  EXPECT_EQ(outcome.reason, StopReason::converged);
+  return *last;
+}
+
+// Its energy has no first order along the axle, so that the best extruded shape is also stationary in a mould
+// without draft. From other starts, a mould finds better shapes.
+TEST(SolidLoop, AMouldWithoutDraftKeepsTheBestExtrudedShape_Slow) {
+  const auto extruded = between_side_faces("extruded"), moulded = between_side_faces("moulded");
+  const auto best = converged(extruded, extruded.initial), kept = converged(moulded, best.shape);
+  EXPECT_NEAR(kept.measure, best.measure, 2e-6 * best.measure);
+  const double in_mould = kept.evaluation.function("objective").value;
+  EXPECT_NEAR(in_mould / best.evaluation.function("objective").value, 1, 0.002);
+}
+
 }  // namespace
 }  // namespace wheelwright

@@ -60,7 +60,7 @@ VelocityKind velocity_kind(const Case& c);
 /// The number of cells over which h1 and vector smooth the motion of the boundary.
 double velocity_length(const Case& c);
 
-/// Degree of the level set: the case's own, or 2, in 3D 1.
+/// Degree of the level set: the case's own, or 2.
 int level_set_degree(const Case& c);
 
 /// Halvings of the cells at the tread in a run and in results: the case's own, or as many as give 8 and 36

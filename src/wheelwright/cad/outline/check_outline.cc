@@ -45,8 +45,10 @@ double area_of(const LevelSet<2>& psi) {
 double checked_area_error(const Outline& outline, const LevelSet<2>& psi, Faults& faults) {
   const double error = material_area(outline) / area_of(psi) - 1;
   if (!(std::abs(error) <= largest_area_error))
-    faults.push_back({fmt::format("the area of the material differs by {:.3g} % from that of the level set",
-                                  100 * error)});
+    faults.push_back(
+        {fmt::format("the area of the material differs by {:.3g} % from that of the level set; decrease "
+                     "--tolerance",
+                     100 * error)});
   return error;
 }
 

@@ -50,8 +50,10 @@ double checked_volume_error(const Outline& profile, const TurnedSection& section
   constexpr double largest = 1e-4;
   const double error = volume_of_revolution(profile) / volume_of(section) - 1;
   if (!(std::abs(error) <= largest))
-    faults.push_back({fmt::format("the volume of the material differs by {:.3g} % from that of the level set",
-                                  100 * error)});
+    faults.push_back(
+        {fmt::format("the volume of the material differs by {:.3g} % from that of the level set; decrease "
+                     "--tolerance",
+                     100 * error)});
   return error;
 }
 

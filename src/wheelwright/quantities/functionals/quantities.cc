@@ -304,6 +304,7 @@ std::vector<QuantityRow> heat_rows() {
            .of = Positions::all,
            .functional = peak,
            .needs = {Input::speed, Input::all_loss_factors, Input::conductivity, Input::cooling},
+           .has_kinks = true,
            .depends_on_heat = true,
            .is_maximum = true,
            .has_parts = true}};
