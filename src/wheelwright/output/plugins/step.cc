@@ -53,7 +53,7 @@ template <class Model>
 TopoDS_Shape valid_solid(const Model& wheel) {
   TopoDS_Shape shape = solid_of(wheel);
   if (!BRepCheck_Analyzer(shape).IsValid())
-    throw std::runtime_error("OpenCASCADE did not produce a valid solid");
+    throw InvalidSolid("OpenCASCADE did not produce a valid solid");
   return shape;
 }
 
