@@ -1,10 +1,11 @@
+#include "wheelwright/cad/solid/lofted_solid.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "wheelwright/cad/solid/lofted_solid.h"
 #include "wheelwright/shape/geometry/shapes.h"
 #include "wheelwright/shape/surface/check_surface.h"
 #include "wheelwright/shape/surface/simplified_surface.h"
@@ -18,7 +19,8 @@ using std::numbers::pi;
 /// Half of a torus around an axis beside the axle: u around it, v from 0 to 1.
 Vec<3> torus(double u, double v) {
   const double around = 2 * pi * u, across = pi * (v - 0.3), r = 0.2 + 0.05 * std::cos(across);
-  return {0.1 + r * std::cos(around), r * std::sin(around), 0.05 * std::sin(across) + 0.02 * std::sin(2 * around)};
+  return {0.1 + r * std::cos(around), r * std::sin(around),
+          0.05 * std::sin(across) + 0.02 * std::sin(2 * around)};
 }
 
 cad::SplineSurface interpolated_torus(int columns, int rows) {
@@ -102,7 +104,8 @@ TEST(SimplifiedSurface, IsAManifoldForRandomLevelSets) {
     const SurfaceMesh mesh = material_surface(psi, 2, 2);
     const SurfaceMesh fewer = simplified(mesh, psi, 0.005);
     EXPECT_LT(fewer.triangles.size(), mesh.triangles.size());
-    const auto before = check_surface(mesh.points, mesh.triangles), after = check_surface(fewer.points, fewer.triangles);
+    const auto before = check_surface(mesh.points, mesh.triangles),
+               after = check_surface(fewer.points, fewer.triangles);
     ASSERT_TRUE(before && after) << sectors;
     EXPECT_EQ(after->euler_characteristic, before->euler_characteristic);
   }
@@ -117,7 +120,9 @@ TEST(SimplifiedSurface, FacetedSolidWithCylindersHasTheirVolume) {
 }
 
 /// The volume of the cones of cone() in a wheel.
-double cones_volume() { return ring.n_sectors * pi * 0.12 / 3 * (0.02 * 0.02 + 0.02 * 0.032 + 0.032 * 0.032); }
+double cones_volume() {
+  return ring.n_sectors * pi * 0.12 / 3 * (0.02 * 0.02 + 0.02 * 0.032 + 0.032 * 0.032);
+}
 
 TEST(LoftedSolid, OfConesHasTheirVolumeAndDeviatesLessThanTheTolerance) {
   const LevelSet<3> psi = cone(ring);

@@ -40,8 +40,7 @@ class HalfPlane {
         return result;
       }
       result.push_back(x);
-      if (piece_.sides.is_border(side))
-        return other.contains(side) ? std::optional(result) : std::nullopt;
+      if (piece_.sides.is_border(side)) return other.contains(side) ? std::optional(result) : std::nullopt;
       side = piece_.sides.opposite(side);
     }
   }

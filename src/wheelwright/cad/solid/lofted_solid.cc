@@ -60,11 +60,9 @@ class Lofting {
         piece_(sides_.pieces([&](int side) { return !sides_.is_border(side); })) {}
 
   Expected<LoftedSolid, std::string> solid() {
-    const FacetedSolid faces =
-        faceted_solid(mesh_, grid_.inner_radius, grid_.outer_radius, grid_.width);
+    const FacetedSolid faces = faceted_solid(mesh_, grid_.inner_radius, grid_.outer_radius, grid_.width);
     if (faces.n_shells != 1) return std::string("it has several bodies or closed cavities");
-    if (!faces.has_rim_cylinder || !faces.has_tread_cylinder)
-      return std::string("holes reach rim or tread");
+    if (!faces.has_rim_cylinder || !faces.has_tread_cylinder) return std::string("holes reach rim or tread");
     find_edges();
     LoftedSolid result{grid_.inner_radius, grid_.outer_radius, grid_.width, {}, {}};
     if (const std::string why = add_holes(result); !why.empty()) return why;
@@ -127,7 +125,8 @@ class Lofting {
                          " edges in side faces");
     const MeshEdge& first = edges_[edges[0]];
     const bool is_groove = is_around_axle(mesh_, sides_, first.sides);
-    HolePiece hole{mesh_, sides_, first.sides, {}, is_groove ? Vec<2>{} : centroid(mesh_, sides_, first.sides)};
+    HolePiece hole{
+        mesh_, sides_, first.sides, {}, is_groove ? Vec<2>{} : centroid(mesh_, sides_, first.sides)};
     if (edges.size() == 2) {
       const MeshEdge& other = edges_[edges[1]];
       hole.other = other.sides;
@@ -163,9 +162,9 @@ class Lofting {
   Sides sides_;
   std::vector<int> piece_;  ///< of every triangle
   std::vector<MeshEdge> edges_;
-  std::map<int, int> edge_at_;                 ///< by vertex
+  std::map<int, int> edge_at_;                ///< by vertex
   std::map<int, std::vector<int>> edges_of_;  ///< by piece; v = 0 is at the first one
-  std::map<int, int> hole_of_;                 ///< by piece
+  std::map<int, int> hole_of_;                ///< by piece
 };
 
 }  // namespace
@@ -177,8 +176,8 @@ Expected<LoftedSolid, std::string> lofted_solid(const SurfaceMesh& mesh, const L
 
 double enclosed_volume(const LoftedSolid& solid) {
   // By the divergence of (x, y, 0) / 2, to which faces across the axle contribute nothing.
-  double volume = pi * solid.width *
-                  (solid.outer_radius * solid.outer_radius - solid.inner_radius * solid.inner_radius);
+  double volume =
+      pi * solid.width * (solid.outer_radius * solid.outer_radius - solid.inner_radius * solid.inner_radius);
   const auto rule = unit_cell_rule<2>(4);
   for (const auto& [surface, faces_out] : solid.holes) {
     double sum = 0;

@@ -7,8 +7,8 @@
 namespace wheelwright::cad {
 
 /// A bicubic B-spline surface of a hole: u runs around it from 0 to `columns` and closes, with knots at the
-/// integers; v runs from one edge to the other, from 0 to `rows`, with knots at the integers, those at the ends
-/// fourfold. Curvature is continuous.
+/// integers; v runs from one edge to the other, from 0 to `rows`, with knots at the integers, those at the
+/// ends fourfold. Curvature is continuous.
 struct SplineSurface {
   int columns, rows;          ///< numbers of intervals; at least 4
   std::vector<Vec<3>> poles;  ///< rows + 3 for every column [m]

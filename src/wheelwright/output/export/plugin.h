@@ -8,8 +8,8 @@
 
 namespace wheelwright {
 
-/// A wheel as a solid: of extrusion or of revolution, with exact faces, or with lofted ones or facets. Refers to
-/// its model.
+/// A wheel as a solid: of extrusion or of revolution, with exact faces, or with lofted ones or facets. Refers
+/// to its model.
 using StepModel = std::variant<const WheelModel*, const TurnedModel*, const FacesModel*>;
 
 /// A writer needs libraries that are not installed.

@@ -61,8 +61,8 @@ struct FacesLayer {
   SolidFaces solid;
 };
 
-/// A wheel whose shape changes along the axle, as a solid with smooth faces or with facets. Placed in files like
-/// the solid of a WheelModel.
+/// A wheel whose shape changes along the axle, as a solid with smooth faces or with facets. Placed in files
+/// like the solid of a WheelModel.
 struct FacesModel {
   std::string title;
   std::string program;

@@ -37,7 +37,8 @@ struct Cylinder {
 
 Cylinder cylinder(double radius, double width) {
   const Handle(Geom_CylindricalSurface) surface = new Geom_CylindricalSurface(gp_Ax3(), radius);
-  Cylinder result{BRepBuilderAPI_MakeFace(surface, 0, 2 * std::numbers::pi, 0, width, vertex_tolerance).Face(), {}};
+  Cylinder result{
+      BRepBuilderAPI_MakeFace(surface, 0, 2 * std::numbers::pi, 0, width, vertex_tolerance).Face(), {}};
   for (TopExp_Explorer edges(result.face, TopAbs_EDGE); edges.More(); edges.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(edges.Current().Oriented(TopAbs_FORWARD));
     const TopoDS_Vertex first = TopExp::FirstVertex(edge), last = TopExp::LastVertex(edge);

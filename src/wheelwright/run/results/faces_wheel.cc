@@ -88,8 +88,8 @@ Expected<FittedFacesWheel, FacesFaults> fitted_faces_wheel(const SurfaceModel& w
                                                            double tolerance) {
   auto whole = faces_of(wheel.surface, wheel.shape, kind, tolerance);
   if (!whole) return whole.failure();
-  FittedFacesWheel fitted{{wheel.title, wheel.program, std::move(whole->solid), {}},
-                          std::move(whole->why_facets), 0, 0, 0, {}};
+  FittedFacesWheel fitted{
+      {wheel.title, wheel.program, std::move(whole->solid), {}}, std::move(whole->why_facets), 0, 0, 0, {}};
   std::visit(
       [&](const auto& solid) {
         fitted.volume = enclosed_volume(solid);

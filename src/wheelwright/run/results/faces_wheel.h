@@ -23,10 +23,11 @@ enum class FaceKind {
   facets,
 };
 
-/// The faces of a wheel and of its layers, within `tolerance` [m] of {psi = 0} in holes. Refused with the place if
-/// one of the surfaces is not that of a solid.
+/// The faces of a wheel and of its layers, within `tolerance` [m] of {psi = 0} in holes. Refused with the
+/// place if one of the surfaces is not that of a solid.
 Expected<FittedFacesWheel, std::vector<cad::OutlineFault>> fitted_faces_wheel(const SurfaceModel& wheel,
-                                                                              FaceKind kind, double tolerance);
+                                                                              FaceKind kind,
+                                                                              double tolerance);
 
 /// As readable lines.
 std::string text(const FittedFacesWheel& wheel);

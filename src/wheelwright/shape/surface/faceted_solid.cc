@@ -38,9 +38,10 @@ void add_side_faces(const SurfaceMesh& mesh, const Sides& sides, const std::vect
   for (int side = 0; side < sides.count(); ++side) {
     if (sides.part(side) != SurfacePart::side || !sides.is_border(side) || is_done[side]) continue;
     const bool is_last = mesh.points[sides.from(side)][2] > 0.5 * solid.width;
-    auto& face =
-        faces.try_emplace(face_of[side / 3], FacetedSolid::SideFace{is_last, false, false, {}, shell[side / 3]})
-            .first->second;
+    auto& face = faces
+                     .try_emplace(face_of[side / 3],
+                                  FacetedSolid::SideFace{is_last, false, false, {}, shell[side / 3]})
+                     .first->second;
     std::vector<int> polygon;
     for (const int s : sides.border(side)) {
       is_done[s] = true;

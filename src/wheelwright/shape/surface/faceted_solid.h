@@ -6,14 +6,14 @@
 
 namespace wheelwright {
 
-/// A solid between plane side faces by its faces: exact cylinders at rim and tread where no hole reaches them,
-/// planes at the side faces, and triangles elsewhere.
+/// A solid between plane side faces by its faces: exact cylinders at rim and tread where no hole reaches
+/// them, planes at the side faces, and triangles elsewhere.
 struct FacetedSolid {
   /// A connected face across the axle. Its loops have the material on the left as seen from outside.
   struct SideFace {
-    bool is_last;                             ///< at z = width, not at z = 0
-    bool ends_at_rim, ends_at_tread;          ///< along the circle of a cylinder
-    std::vector<std::vector<int>> polygons;   ///< its other loops, by points
+    bool is_last;                            ///< at z = width, not at z = 0
+    bool ends_at_rim, ends_at_tread;         ///< along the circle of a cylinder
+    std::vector<std::vector<int>> polygons;  ///< its other loops, by points
     int shell;
   };
   struct Triangle {

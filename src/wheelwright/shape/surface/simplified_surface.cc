@@ -82,8 +82,8 @@ class Simplification {
         if (!facet.is_left) continue;
         std::array<int, 3> triangle;
         for (int k = 0; k < 3; ++k)
-          triangle[k] = number[facet.corners[k].vertex] +
-                        turned(facet.corners[k].sector + s) * fewer.sector_points();
+          triangle[k] =
+              number[facet.corners[k].vertex] + turned(facet.corners[k].sector + s) * fewer.sector_points();
         fewer.triangles.push_back(triangle);
         fewer.parts.push_back(facet.part);
       }

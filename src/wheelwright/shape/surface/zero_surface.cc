@@ -27,7 +27,8 @@ ZeroSurface::Value ZeroSurface::at(const Vec<3>& point) const {
   const Vec<3> size = grid_.cell_size(cell[0]);
   const double radial = by_cell[0] / size[0], azimuthal = by_cell[1] / (size[1] * x[0]);
   const double cosine = point[0] / x[0], sine = point[1] / x[0];
-  return {value, {cosine * radial - sine * azimuthal, sine * radial + cosine * azimuthal, by_cell[2] / size[2]}};
+  return {value,
+          {cosine * radial - sine * azimuthal, sine * radial + cosine * azimuthal, by_cell[2] / size[2]}};
 }
 
 }  // namespace wheelwright

@@ -4,9 +4,9 @@
 
 namespace wheelwright {
 
-/// {psi = 0} in the full ring, evaluated at any point of space: the piecewise polynomial in polar coordinates,
-/// in Cartesian coordinates [m] of the body frame. Outside the ring the polynomials of its outermost cells
-/// are continued.
+/// {psi = 0} in the full ring, evaluated at any point of space: the piecewise polynomial in polar
+/// coordinates, in Cartesian coordinates [m] of the body frame. Outside the ring the polynomials of its
+/// outermost cells are continued.
 class ZeroSurface {
  public:
   explicit ZeroSurface(const LevelSet<3>& psi) : psi_(psi), grid_(psi.lattice.grid()) {}
