@@ -688,7 +688,7 @@ class Solid(unittest.TestCase):
 
     def test_formats_of_plane_wheels_are_refused(self):
         folder = Path(tempfile.mkdtemp(dir=temporary))
-        for name in ("dxf", "svg", "step"):
+        for name in ("dxf", "svg"):
             told = wheelwright("export", self.source, "--format", f"stl,{name}", "--output", folder, code=2)
             self.assertIn(name, told)
             self.assertIn("vtp", told)
@@ -774,6 +774,81 @@ class Sections(unittest.TestCase):
         wheelwright("export", plane, "--sections", "10", "--output", folder, code=2)
         wheelwright("export", self.case, "--sections", "middle", "--output", folder, code=2)
         self.assertEqual(os.listdir(folder), [])
+
+
+GROOVE = """
+[[holes.groove]]
+inner_radius = {inner}
+outer_radius = {outer}
+depth = 0.03
+fillet = 0.008
+side = "larger_z"
+"""
+
+
+def cones_with_groove(inner, outer):
+    """Cones through the wheel, and a groove in one of its side faces; without mirror symmetry."""
+    return CONES.replace("[material]", GROOVE.format(inner=inner, outer=outer) + "[material]")
+
+
+class Faces(unittest.TestCase):
+    """STEP files of wheels whose shape changes along the axle."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = temporary / "faces_export"
+        cls.told = {}
+        for name, inner, outer in (("apart", 0.2115, 0.229), ("crossing", 0.215, 0.26)):
+            (temporary / f"{name}.toml").write_text(cones_with_groove(inner, outer))
+            cls.told[name] = wheelwright("export", temporary / f"{name}.toml", "--format", "step", "--output", cls.folder)
+
+    def number(self, name, pattern):
+        return float(re.search(pattern, self.told[name])[1])
+
+    def check(self, name):
+        """The facts of a solid that is checked for what both kinds have in common."""
+        points, expected = [], []
+        for i in range(300):
+            radius, azimuth, z = 205 + 1.3 * (i * 37 % 100), 0.61 * i, 1.5 + 107 * (i * 61 % 100) / 100
+            x, y = radius * math.cos(azimuth), radius * math.sin(azimuth)
+            angles = [math.radians(11) + 2 * math.pi * k / 7 for k in range(7)]
+            gap = min(math.hypot(x - 265 * math.cos(a), y - 265 * math.sin(a)) for a in angles) - (14 + 16 * z / 110)
+            if abs(gap) > 0.5 and not (z > 75 and 205 < radius < 265):  # beside the groove
+                points.append((x, y, z))
+                expected.append(gap > 0)
+        self.assertGreater(min(sum(expected), len(expected) - sum(expected)), 30)
+        facts, found = Turned.read_step(self.folder / f"{name}.step", points)
+        self.assertEqual(found, expected)
+        self.assertEqual((facts["unit"], facts["valid"], facts["solids"]), ("millimetre", "1", "1"))
+        volume, told = float(facts["volume"]), self.number(name, r"(\d+) mm\^3, \S+ of the surface's")
+        self.assertAlmostEqual(volume, told, delta=1e-6 * told)
+        self.assertAlmostEqual(float(facts["usual_volume"]), told, delta=1e-4 * told)
+        of_level_set = self.number(name, r"volume +(\d+)") / (1 + self.number(name, r"volume .*mm\^3, (\S+) of"))
+        self.assertAlmostEqual(volume, of_level_set, delta=1e-4 * volume)
+        self.assertLessEqual(self.number(name, r"\n +deviation ([\d.]+) mm"), 0.1)
+        for corner, at in (("lower", (-340, -340, 0)), ("upper", (340, 340, 110))):
+            for value, expected_value in zip(facts[corner].split(), at):
+                self.assertAlmostEqual(float(value), expected_value, delta=1e-3)
+        self.assertEqual(facts["cylinder"], "2")
+        return facts
+
+    def test_holes_are_smooth_faces(self):
+        facts = self.check("apart")
+        self.assertIn("32 B-spline surfaces", self.told["apart"])
+        # Four for each of the cones and for the groove, which divides one of the side faces.
+        self.assertEqual((facts["b_spline"], facts["plane"]), ("32", "3"))
+        self.assertNotIn("other", facts)
+
+    def test_holes_that_branch_are_facets(self):
+        self.assertIn("no smooth faces: the surface of a hole branches", self.told["crossing"])
+        facts = self.check("crossing")
+        self.assertEqual(int(facts["plane"]) + 2, self.number("crossing", r"STEP +(\d+) faces"))
+        self.assertLess(int(facts["plane"]), 10000)
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        again = temporary / "faces_again"
+        wheelwright("export", temporary / "apart.toml", "--format", "step", "--output", again)
+        self.assertEqual((again / "apart.step").read_bytes(), (self.folder / "apart.step").read_bytes())
 
 
 TURNED = """

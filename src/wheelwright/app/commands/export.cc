@@ -16,6 +16,7 @@
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/output/export/formats.h"
 #include "wheelwright/output/export/plugin.h"
+#include "wheelwright/run/results/faces_wheel.h"
 #include "wheelwright/run/results/fitted_wheel.h"
 #include "wheelwright/run/results/making.h"
 #include "wheelwright/run/results/turned_wheel.h"
@@ -39,10 +40,14 @@ using Formats = std::vector<const ExportFormat*>;
 using Files = std::vector<std::pair<fs::path, std::string>>;
 
 bool can_hold(const ExportFormat& format, const WheelModel*) { return format.of_plane != nullptr; }
-bool can_hold(const ExportFormat& format, const SurfaceModel*) { return format.of_surface != nullptr; }
+bool can_hold(const ExportFormat& format, const FacesModel*) { return format.of_faces != nullptr; }
+bool can_hold(const ExportFormat& format, const SurfaceModel*) {
+  return format.of_surface != nullptr || format.of_faces != nullptr;
+}
 bool can_hold(const ExportFormat& format, const TurnedModel*) { return format.of_profile != nullptr; }
 std::string file(const ExportFormat& format, const WheelModel& wheel) { return format.of_plane(wheel); }
 std::string file(const ExportFormat& format, const SurfaceModel& wheel) { return format.of_surface(wheel); }
+std::string file(const ExportFormat& format, const FacesModel& wheel) { return format.of_faces(wheel); }
 std::string file(const ExportFormat& format, const TurnedModel& wheel) { return format.of_profile(wheel); }
 
 std::string names_of_formats(bool (*is_named)(const ExportFormat&)) {
@@ -188,16 +193,60 @@ class ExportCommand : public Subcommand {
     return add_files_of_shape(input, files);
   }
 
-  template <int dim>
-  int add_files_of_shape(const WheelInput<dim>& input, Files& files) const {
-    using Model = std::conditional_t<dim == 2, WheelModel, SurfaceModel>;
-    const Formats chosen = formats(dim == 2 ? default_formats : default_formats_3d);
-    if (!can_hold_or_tell<Model>(chosen)) return exit_usage;
-    const double accuracy = tolerance(dim == 2 ? default_tolerance : default_tolerance_3d);
-    if (dim == 2 && is_too_fine(accuracy, input.source)) return exit_usage;
+  int add_files_of_shape(const WheelInput<2>& input, Files& files) const {
+    const Formats chosen = formats(default_formats);
+    if (!can_hold_or_tell<WheelModel>(chosen)) return exit_usage;
+    const double accuracy = tolerance(default_tolerance);
+    if (is_too_fine(accuracy, input.source)) return exit_usage;
     const auto wheel = fitted(input, accuracy);
     if (!wheel) return refuse(wheel.failure());
     return add_files(input.name, *wheel, chosen, files);
+  }
+
+  int add_files_of_shape(const WheelInput<3>& input, Files& files) const {
+    const Formats chosen = formats(default_formats_3d);
+    if (!can_hold_or_tell<SurfaceModel>(chosen)) return exit_usage;
+    return add_files_of_surface(input, chosen, files);
+  }
+
+  /// Adds the surface of a shape in the formats that hold triangles, and its faces in the others.
+  int add_files_of_surface(const WheelInput<3>& input, const Formats& chosen, Files& files) const {
+    const double accuracy = tolerance(default_tolerance_3d);
+    const auto wheel = fitted(input, accuracy);
+    if (!wheel) return refuse(wheel.failure());
+    const auto [of_faces, of_triangles] = divided<FacesModel>(chosen);
+    if (!of_faces.empty())
+      if (const int code = add_files_of_faces(input.name, *wheel, of_faces, accuracy, files);
+          code != exit_done)
+        return code;
+    return add_files(input.name, *wheel, of_triangles, files);
+  }
+
+  /// With smooth faces if these make a valid solid, otherwise with facets.
+  int add_files_of_faces(const std::string& name, const SurfaceModel& wheel, const Formats& chosen,
+                         double accuracy, Files& files) const {
+    for (const FaceKind kind : {FaceKind::smooth, FaceKind::facets}) {
+      const auto solid = fitted_faces_wheel(wheel, kind, accuracy);
+      if (!solid) return refuse(solid.failure());
+      try {
+        const int code = add_files(name, solid->model, chosen, files);
+        if (code == exit_done) fmt::print("{}", text(*solid));
+        return code;
+      } catch (const InvalidSolid&) {
+        if (kind == FaceKind::facets) throw;
+      }
+    }
+    return exit_refused;
+  }
+
+  /// The formats that can hold a model, and the others.
+  template <class Model>
+  static std::pair<Formats, Formats> divided(const Formats& all) {
+    std::pair<Formats, Formats> result;
+    for (const ExportFormat* format : all)
+      (can_hold(*format, static_cast<const Model*>(nullptr)) ? result.first : result.second)
+          .push_back(format);
+    return result;
   }
 
   /// Adds the profile of a body of revolution in the formats that hold profiles, and its surface in the
@@ -205,19 +254,13 @@ class ExportCommand : public Subcommand {
   int add_files_of_turned(const WheelInput<3>& input, Files& files) const {
     const double accuracy = tolerance(default_tolerance);
     if (is_too_fine(accuracy, input.source)) return exit_usage;
-    Formats of_profile, of_surface;
-    for (const ExportFormat* format : formats(default_formats))
-      (can_hold(*format, static_cast<const TurnedModel*>(nullptr)) ? of_profile : of_surface)
-          .push_back(format);
+    const auto [of_profile, of_surface] = divided<TurnedModel>(formats(default_formats));
     if (!of_profile.empty()) {
       const auto wheel = fitted_profile(input, accuracy);
       if (!wheel) return refuse(wheel.failure());
       if (const int code = add_files(input.name, *wheel, of_profile, files); code != exit_done) return code;
     }
-    if (of_surface.empty()) return exit_done;
-    const auto wheel = fitted(input, tolerance(default_tolerance_3d));
-    if (!wheel) return refuse(wheel.failure());
-    return add_files(input.name, *wheel, of_surface, files);
+    return of_surface.empty() ? exit_done : add_files_of_surface(input, of_surface, files);
   }
 
   int add_sections(const WheelInput<2>&, Files&) const {

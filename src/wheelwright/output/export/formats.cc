@@ -34,14 +34,14 @@ std::string step(const Model& wheel) {
 }
 
 constexpr ExportFormat formats[] = {
-    {"dxf", "outline, curves in layers", dxf, nullptr, dxf},
-    {"svg", "outline at true scale", svg_outline, nullptr, svg_outline},
-    {"stl", "solid, triangles", stl_of<WheelModel>, stl_of<SurfaceModel>, nullptr},
-    {"3mf", "solid, triangles with unit", three_mf<WheelModel>, three_mf<SurfaceModel>, nullptr},
-    {"step", "solid, exact faces", step<WheelModel>, nullptr, step<TurnedModel>},
-    {"vtu", "shape for ParaView", vtu_shape, vtu_shape, nullptr},
-    {"vtp", "surface for ParaView", nullptr, vtp_surface, nullptr},
-    {"png", "picture", png, png, nullptr},
+    {"dxf", "outline, curves in layers", dxf, nullptr, nullptr, dxf},
+    {"svg", "outline at true scale", svg_outline, nullptr, nullptr, svg_outline},
+    {"stl", "solid, triangles", stl_of<WheelModel>, stl_of<SurfaceModel>, nullptr, nullptr},
+    {"3mf", "solid, triangles with unit", three_mf<WheelModel>, three_mf<SurfaceModel>, nullptr, nullptr},
+    {"step", "solid, faces", step<WheelModel>, nullptr, step<FacesModel>, step<TurnedModel>},
+    {"vtu", "shape for ParaView", vtu_shape, vtu_shape, nullptr, nullptr},
+    {"vtp", "surface for ParaView", nullptr, vtp_surface, nullptr, nullptr},
+    {"png", "picture", png, png, nullptr, nullptr},
 };
 
 }  // namespace

@@ -12,11 +12,12 @@ namespace wheelwright {
 struct ExportFormat {
   std::string_view name;     ///< also the extension of its files
   std::string_view meaning;  ///< a few words
-  /// The file contents for a plane wheel, for the surface of one whose shape changes along the axle, and for
-  /// the profile of a body of revolution; null if the format cannot represent it. They throw MissingPlugin
-  /// and std::runtime_error.
+  /// The file contents for a plane wheel, for the surface of one whose shape changes along the axle, for the
+  /// same as a solid with faces, and for the profile of a body of revolution; null if the format cannot
+  /// represent it. They throw MissingPlugin and std::runtime_error.
   std::string (*of_plane)(const WheelModel&);
   std::string (*of_surface)(const SurfaceModel&);
+  std::string (*of_faces)(const FacesModel&);
   std::string (*of_profile)(const TurnedModel&);
 };
 

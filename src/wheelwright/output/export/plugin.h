@@ -8,11 +8,18 @@
 
 namespace wheelwright {
 
-/// A wheel with exact faces, a solid of extrusion or of revolution. Refers to its model.
-using StepModel = std::variant<const WheelModel*, const TurnedModel*>;
+/// A wheel as a solid: of extrusion or of revolution, with exact faces, or with lofted ones or facets. Refers
+/// to its model.
+using StepModel = std::variant<const WheelModel*, const TurnedModel*, const FacesModel*>;
 
 /// A writer needs libraries that are not installed.
 class MissingPlugin : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Faces that do not make a valid solid.
+class InvalidSolid : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

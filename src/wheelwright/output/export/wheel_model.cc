@@ -29,6 +29,10 @@ SurfaceModel layer_model(const SurfaceModel& wheel, const SurfaceLayer& layer) {
           .map_degree = wheel.map_degree};
 }
 
+FacesModel layer_model(const FacesModel& wheel, const FacesLayer& layer) {
+  return {.title = title_of(wheel.title, layer.name), .program = wheel.program, .solid = layer.solid};
+}
+
 TurnedModel layer_model(const TurnedModel& wheel, const TurnedLayer& layer) {
   return {.title = title_of(wheel.title, layer.name),
           .program = wheel.program,

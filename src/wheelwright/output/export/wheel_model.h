@@ -3,11 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "wheelwright/cad/outline/outline.h"
+#include "wheelwright/cad/solid/lofted_solid.h"
 #include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/output/report/solid_mesh.h"
+#include "wheelwright/shape/surface/faceted_solid.h"
 
 namespace wheelwright {
 
@@ -50,6 +53,23 @@ struct SurfaceModel {
   std::vector<SurfaceLayer> layers = {};
 };
 
+/// The faces of a solid whose shape changes along the axle.
+using SolidFaces = std::variant<cad::LoftedSolid, FacetedSolid>;
+
+struct FacesLayer {
+  std::string name;
+  SolidFaces solid;
+};
+
+/// A wheel whose shape changes along the axle, as a solid with smooth faces or with facets. Placed in files
+/// like the solid of a WheelModel.
+struct FacesModel {
+  std::string title;
+  std::string program;
+  SolidFaces solid;
+  std::vector<FacesLayer> layers = {};
+};
+
 struct TurnedLayer {
   std::string name;
   cad::Outline outline;  ///< its part of the profile
@@ -84,6 +104,7 @@ struct SolidModel {
 /// A layer of a wheel as a wheel.
 WheelModel layer_model(const WheelModel& wheel, const WheelLayer& layer);
 SurfaceModel layer_model(const SurfaceModel& wheel, const SurfaceLayer& layer);
+FacesModel layer_model(const FacesModel& wheel, const FacesLayer& layer);
 TurnedModel layer_model(const TurnedModel& wheel, const TurnedLayer& layer);
 
 /// The circles between the layers.

@@ -52,8 +52,7 @@ void set_header(const Handle(StepData_StepModel) & model, const Model& wheel) {
 template <class Model>
 TopoDS_Shape valid_solid(const Model& wheel) {
   TopoDS_Shape shape = solid_of(wheel);
-  if (!BRepCheck_Analyzer(shape).IsValid())
-    throw std::runtime_error("OpenCASCADE did not produce a valid solid");
+  if (!BRepCheck_Analyzer(shape).IsValid()) throw InvalidSolid("OpenCASCADE did not produce a valid solid");
   return shape;
 }
 

@@ -205,4 +205,8 @@ TopoDS_Shape solids(const Model& wheel) {
 TopoDS_Shape solid_of(const WheelModel& wheel) { return solids(wheel); }
 TopoDS_Shape solid_of(const TurnedModel& wheel) { return solids(wheel); }
 
+TopoDS_Shape solid_of(const FacesModel& wheel) {
+  return std::visit([](const auto& solid) { return solid_of(solid); }, wheel.solid);
+}
+
 }  // namespace wheelwright

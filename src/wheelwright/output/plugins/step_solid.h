@@ -15,4 +15,10 @@ TopoDS_Shape solid_of(const WheelModel& wheel);
 /// curves cylinders, planes, cones, spheres and tori, and as few surfaces of revolution per spline.
 TopoDS_Shape solid_of(const TurnedModel& wheel);
 
+/// The same for a wheel whose shape changes along the axle: cylinders at rim and tread, planes across the
+/// axle, and in holes four B-spline surfaces each, or a plane for every triangle.
+TopoDS_Shape solid_of(const FacesModel& wheel);
+TopoDS_Shape solid_of(const FacetedSolid& solid);
+TopoDS_Shape solid_of(const cad::LoftedSolid& solid);
+
 }  // namespace wheelwright

@@ -1,0 +1,122 @@
+#include "wheelwright/run/results/faces_wheel.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "wheelwright/shape/geometry/place.h"
+#include "wheelwright/shape/surface/check_surface.h"
+#include "wheelwright/shape/surface/simplified_surface.h"
+#include "wheelwright/shape/surface/zero_surface.h"
+
+namespace wheelwright {
+namespace {
+
+using FacesFaults = std::vector<cad::OutlineFault>;
+constexpr double millimetres = 1e3;
+
+FacetedSolid facets_of(const SurfaceMesh& mesh, const LevelSet<3>& psi) {
+  const PolarGrid<3>& grid = psi.lattice.grid();
+  return faceted_solid(mesh, grid.inner_radius, grid.outer_radius, grid.width);
+}
+
+struct Faces {
+  SolidFaces solid;
+  std::string why_facets;
+};
+
+Expected<Faces, FacesFaults> faces_of(const SurfaceMesh& surface, const LevelSet<3>& psi, FaceKind kind,
+                                      double tolerance) {
+  constexpr double share = 0.8;  // of the tolerance, at the points of triangles where simplified() looks
+  const SurfaceMesh mesh = simplified(surface, psi, share * tolerance);
+  if (const auto report = check_surface(mesh.points, mesh.triangles); !report) {
+    const Vec<3> at = polar<3>(report.failure().place);
+    return FacesFaults{{fmt::format("{}, z = {:.1f} mm: {}; choose another --tolerance", place_text<3>(at),
+                                    at[2] * millimetres, report.failure().what)}};
+  }
+  if (kind == FaceKind::facets) return Faces{facets_of(mesh, psi), "smooth ones do not make a valid solid"};
+  auto lofted = cad::lofted_solid(mesh, psi, tolerance);
+  if (lofted) return Faces{*std::move(lofted), {}};
+  return Faces{facets_of(mesh, psi), lofted.failure()};
+}
+
+/// The largest distance of facets from {psi = 0}, at the points that divide their sides into equal parts.
+cad::LoftDeviation deviation(const FacetedSolid& solid, const LevelSet<3>& psi) {
+  constexpr int parts = 8;
+  const ZeroSurface zero(psi);
+  cad::LoftDeviation largest{0, {}};
+  for (const auto& [corners, shell] : solid.triangles) {
+    const Vec<3>&a = solid.points[corners[0]], &b = solid.points[corners[1]], &c = solid.points[corners[2]];
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j) {
+        const Vec<3> x = a + (double(i) / parts) * (b - a) + (double(j) / parts) * (c - a);
+        const double radius = std::hypot(x[0], x[1]);
+        const double to_cylinders =
+            std::min(std::abs(radius - solid.inner_radius), std::abs(radius - solid.outer_radius));
+        const double found = std::min(zero.at(x).distance(), to_cylinders);
+        if (found > largest.distance) largest = {found, x};
+      }
+  }
+  return largest;
+}
+
+cad::LoftDeviation deviation(const cad::LoftedSolid& solid, const LevelSet<3>& psi) {
+  constexpr int parts = 4;
+  const ZeroSurface zero(psi);
+  cad::LoftDeviation largest{0, {}};
+  for (const auto& hole : solid.holes) {
+    const auto found = cad::deviation(hole.surface, zero, parts);
+    if (found.distance > largest.distance) largest = found;
+  }
+  return largest;
+}
+
+std::string count(const FacetedSolid& solid) {
+  return fmt::format("{} faces: {} cylinders, {} planes across the axle and {} triangles", solid.n_faces(),
+                     int(solid.has_rim_cylinder) + int(solid.has_tread_cylinder), solid.side_faces.size(),
+                     solid.triangles.size());
+}
+
+std::string count(const cad::LoftedSolid& solid) {
+  return fmt::format("{} faces: 2 cylinders, {} planes across the axle and {} B-spline surfaces",
+                     solid.n_faces(), solid.side_faces.size(), solid.n_hole_faces());
+}
+
+}  // namespace
+
+Expected<FittedFacesWheel, FacesFaults> fitted_faces_wheel(const SurfaceModel& wheel, FaceKind kind,
+                                                           double tolerance) {
+  auto whole = faces_of(wheel.surface, wheel.shape, kind, tolerance);
+  if (!whole) return whole.failure();
+  FittedFacesWheel fitted{
+      {wheel.title, wheel.program, std::move(whole->solid), {}}, std::move(whole->why_facets), 0, 0, 0, {}};
+  std::visit(
+      [&](const auto& solid) {
+        fitted.volume = enclosed_volume(solid);
+        const auto found = deviation(solid, wheel.shape);
+        fitted.deviation = found.distance;
+        fitted.place = polar<3>(found.place);
+      },
+      fitted.model.solid);
+  fitted.volume_error = fitted.volume / enclosed_volume(facets_of(wheel.surface, wheel.shape)) - 1;
+  for (const SurfaceLayer& layer : wheel.layers) {
+    auto part = faces_of(layer.surface, layer.shape, kind, tolerance);
+    if (!part) return part.failure();
+    fitted.model.layers.push_back({layer.name, std::move(part->solid)});
+  }
+  return fitted;
+}
+
+std::string text(const FittedFacesWheel& wheel) {
+  const auto line = [](const char* name, const std::string& value) {
+    return fmt::format("{:<16} {}\n", name, value);
+  };
+  return line("STEP", std::visit([](const auto& solid) { return count(solid); }, wheel.model.solid)) +
+         (wheel.why_facets.empty() ? "" : line("", "no smooth faces: " + wheel.why_facets)) +
+         line("", fmt::format("{:.0f} mm^3, {:+.1e} of the surface's with exact cylinders",
+                              wheel.volume * std::pow(millimetres, 3), wheel.volume_error)) +
+         line("", fmt::format("deviation {:.4f} mm at {}, z = {:.1f} mm", wheel.deviation * millimetres,
+                              place_text<3>(wheel.place), wheel.place[2] * millimetres));
+}
+
+}  // namespace wheelwright
