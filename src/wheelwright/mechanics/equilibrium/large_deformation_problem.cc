@@ -48,13 +48,13 @@ std::optional<EquilibriumFailure> overlap(const DeformableRing<dim>& ring,
   return EquilibriumFailure{overlap_failure(travel)};
 }
 
-/// A position with the tangent at its solution, whose zone has at least so many columns to either side of the
+/// A position, sought from a solution with the tangent there, with the tangent at its own; the zone of that has at least so many columns to either side of the
 /// ground.
 template <int dim>
 Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized_solution(
-    const EquilibriumSolver<dim>& solver, const DeformableRing<dim>& ring, GroundPosition ground,
-    const EquilibriumStart<dim>& start, int half_zone, const Interrupt& interrupt) {
-  const auto solved = solver.solve(ground, start, interrupt);
+    const EquilibriumSolver<dim>& solver, const DeformableRing<dim>& ring, const RingEquilibrium<dim>& from,
+    std::shared_ptr<const RingLinearization<dim>> tangent, int half_zone, const Interrupt& interrupt) {
+  const auto solved = solver.solve_from(from, std::move(tangent), interrupt);
   if (!solved) return solved.failure();
   auto linearized = solver.linearized(*solved, interrupt, half_zone);
   if (!linearized) return linearized;
@@ -233,8 +233,7 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
   const auto solver = [&](const RollingModel<dim>& model) {
     return EquilibriumSolver<dim>(model, solution.ring->problem, small_strains_->tread());
   };
-  const GroundPosition ground = solution.positions.grounds[position];
-  EquilibriumStart<dim> start{solution.equilibria[position].v, solution.equilibria[position].state};
+  LinearizedEquilibrium<dim> last{solution.equilibria[position], nullptr};
   std::optional<double> too_large;  // a load that failed
   std::vector<Expected<LoadedEquilibrium<dim>, EquilibriumFailure>> result;
   for (size_t k = 0; k < models.size(); ++k) {
@@ -243,17 +242,17 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
       continue;
     }
     const int next_half_zone = k + 1 < models.size() ? solver(models[k + 1]).first_half_zone() : 0;
-    auto point =
-        linearized_solution(solver(models[k]), *solution.ring, ground, start, next_half_zone, interrupt);
+    auto point = linearized_solution(solver(models[k]), *solution.ring, last.solution, last.linearization,
+                                     next_half_zone, interrupt);
     if (!point) {
       if (!models[k].travel && point.failure().reason != FailureReason::interrupted)
         too_large = models[k].load;
       result.emplace_back(point.failure());
       continue;
     }
-    start = {point->solution.v, point->solution.state, std::move(point->linearization)};
-    const auto stiffness = tangent_stiffness(point->solution.contact, point->solution.state);
-    result.emplace_back(LoadedEquilibrium<dim>{std::move(point->solution), stiffness});
+    last = *std::move(point);
+    result.emplace_back(LoadedEquilibrium<dim>{
+        last.solution, tangent_stiffness(last.solution.contact, last.solution.state)});
   }
   return result;
 }

@@ -257,6 +257,19 @@ auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<Eq
 }
 
 template <int dim>
+auto EquilibriumSolver<dim>::solve_from(const RingEquilibrium<dim>& solution,
+                                        std::shared_ptr<const RingLinearization<dim>> linearization,
+                                        const Interrupt& interrupt) const -> Result {
+  const RimControl rim = rim_control(model_);
+  auto solved =
+      solve_under(rim, solution.ground, {solution.v, solution.state, std::move(linearization)}, interrupt);
+  if (solved || solved.failure().reason == FailureReason::interrupted) return solved;
+  if (pressing_force(rim) > solution.state.rim_force.towards_ground)
+    return beyond(rim, solution, solved.failure(), interrupt);
+  return solve(solution.ground, {}, interrupt);
+}
+
+template <int dim>
 auto EquilibriumSolver<dim>::checked(RingEquilibrium<dim> solution, const RingLinearization<dim>& near) const
     -> Result {
   if (is_stable(near, solution.contact, solution.state)) return solution;
