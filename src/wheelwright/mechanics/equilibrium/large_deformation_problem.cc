@@ -48,8 +48,8 @@ std::optional<EquilibriumFailure> overlap(const DeformableRing<dim>& ring,
   return EquilibriumFailure{overlap_failure(travel)};
 }
 
-/// A position, sought from a solution with the tangent there, with the tangent at its own; the zone of that has at least so many columns to either side of the
-/// ground.
+/// A position, sought from a solution with the tangent there (null: unknown), and the tangent at its own
+/// solution, whose zone has at least so many columns to either side of the ground.
 template <int dim>
 Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized_solution(
     const EquilibriumSolver<dim>& solver, const DeformableRing<dim>& ring, const RingEquilibrium<dim>& from,
@@ -251,8 +251,8 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
       continue;
     }
     last = *std::move(point);
-    result.emplace_back(LoadedEquilibrium<dim>{
-        last.solution, tangent_stiffness(last.solution.contact, last.solution.state)});
+    result.emplace_back(
+        LoadedEquilibrium<dim>{last.solution, tangent_stiffness(last.solution.contact, last.solution.state)});
   }
   return result;
 }
