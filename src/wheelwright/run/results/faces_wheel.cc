@@ -25,21 +25,6 @@ struct Faces {
   std::string why_facets;
 };
 
-Expected<Faces, FacesFaults> faces_of(const SurfaceMesh& surface, const LevelSet<3>& psi, FaceKind kind,
-                                      double tolerance) {
-  constexpr double share = 0.8;  // of the tolerance, at the points of triangles where simplified() looks
-  const SurfaceMesh mesh = simplified(surface, psi, share * tolerance);
-  if (const auto report = check_surface(mesh.points, mesh.triangles); !report) {
-    const Vec<3> at = polar<3>(report.failure().place);
-    return FacesFaults{{fmt::format("{}, z = {:.1f} mm: {}; choose another --tolerance", place_text<3>(at),
-                                    at[2] * millimetres, report.failure().what)}};
-  }
-  if (kind == FaceKind::facets) return Faces{facets_of(mesh, psi), "smooth ones do not make a valid solid"};
-  auto lofted = cad::lofted_solid(mesh, psi, tolerance);
-  if (lofted) return Faces{*std::move(lofted), {}};
-  return Faces{facets_of(mesh, psi), lofted.failure()};
-}
-
 /// The largest distance of facets from {psi = 0}, at the points that divide their sides into equal parts.
 cad::LoftDeviation deviation(const FacetedSolid& solid, const LevelSet<3>& psi) {
   constexpr int parts = 8;
@@ -58,6 +43,54 @@ cad::LoftDeviation deviation(const FacetedSolid& solid, const LevelSet<3>& psi) 
       }
   }
   return largest;
+}
+
+std::string place(const Vec<3>& polar_place) {
+  return fmt::format("{}, z = {:.1f} mm", place_text<3>(polar_place), polar_place[2] * millimetres);
+}
+
+/// The surface by fewer triangles that stay within a tolerance at some points of them, checked.
+Expected<SurfaceMesh, FacesFaults> checked_and_simplified(const SurfaceMesh& surface, const LevelSet<3>& psi,
+                                                          double tolerance) {
+  SurfaceMesh mesh = simplified(surface, psi, tolerance);
+  if (const auto report = check_surface(mesh.points, mesh.triangles); !report)
+    return FacesFaults{{fmt::format("{}: {}; choose another --tolerance",
+                                    place(polar<3>(report.failure().place)), report.failure().what)}};
+  return mesh;
+}
+
+/// Facets that stay within the tolerance everywhere, from those simplified first.
+Expected<FacetedSolid, FacesFaults> facets_within(double tolerance, const SurfaceMesh& surface,
+                                                  const LevelSet<3>& psi, FacetedSolid solid, double share) {
+  constexpr double smallest_share = 0.1;
+  for (;;) {
+    const auto found = deviation(solid, psi);
+    if (found.distance <= tolerance) return solid;
+    share /= 2;
+    if (share < smallest_share)
+      return FacesFaults{
+          {fmt::format("{}: facets deviate by {:.4f} mm from the level set; increase --tolerance",
+                       place(polar<3>(found.place)), found.distance * millimetres)}};
+    const auto mesh = checked_and_simplified(surface, psi, share * tolerance);
+    if (!mesh) return mesh.failure();
+    solid = facets_of(*mesh, psi);
+  }
+}
+
+Expected<Faces, FacesFaults> faces_of(const SurfaceMesh& surface, const LevelSet<3>& psi, FaceKind kind,
+                                      double tolerance) {
+  constexpr double share = 0.8;  // of the tolerance, at the points of triangles where simplified() looks
+  const auto mesh = checked_and_simplified(surface, psi, share * tolerance);
+  if (!mesh) return mesh.failure();
+  std::string why_facets = "smooth ones do not make a valid solid";
+  if (kind != FaceKind::facets) {
+    auto lofted = cad::lofted_solid(*mesh, psi, tolerance);
+    if (lofted) return Faces{*std::move(lofted), {}};
+    why_facets = lofted.failure();
+  }
+  auto facets = facets_within(tolerance, surface, psi, facets_of(*mesh, psi), share);
+  if (!facets) return facets.failure();
+  return Faces{*std::move(facets), std::move(why_facets)};
 }
 
 cad::LoftDeviation deviation(const cad::LoftedSolid& solid, const LevelSet<3>& psi) {
@@ -115,8 +148,8 @@ std::string text(const FittedFacesWheel& wheel) {
          (wheel.why_facets.empty() ? "" : line("", "no smooth faces: " + wheel.why_facets)) +
          line("", fmt::format("{:.0f} mm^3, {:+.1e} of the surface's with exact cylinders",
                               wheel.volume * std::pow(millimetres, 3), wheel.volume_error)) +
-         line("", fmt::format("deviation {:.4f} mm at {}, z = {:.1f} mm", wheel.deviation * millimetres,
-                              place_text<3>(wheel.place), wheel.place[2] * millimetres));
+         line("",
+              fmt::format("deviation {:.4f} mm at {}", wheel.deviation * millimetres, place(wheel.place)));
 }
 
 }  // namespace wheelwright
