@@ -264,8 +264,12 @@ auto EquilibriumSolver<dim>::solve_from(const RingEquilibrium<dim>& solution,
   auto solved =
       solve_under(rim, solution.ground, {solution.v, solution.state, std::move(linearization)}, interrupt);
   if (solved || solved.failure().reason == FailureReason::interrupted) return solved;
-  if (pressing_force(rim) > solution.state.rim_force.towards_ground)
-    return beyond(rim, solution, solved.failure(), interrupt);
+  if (pressing_force(rim) > solution.state.rim_force.towards_ground) {
+    auto by_travel = beyond(rim, solution, solved.failure(), interrupt);
+    if (by_travel || by_travel.failure().reason == FailureReason::overload ||
+        by_travel.failure().reason == FailureReason::interrupted)
+      return by_travel;
+  }
   return solve(solution.ground, {}, interrupt);
 }
 

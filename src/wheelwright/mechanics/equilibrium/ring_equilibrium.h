@@ -73,8 +73,8 @@ class EquilibriumSolver {
                                                                  const Interrupt& interrupt = {}) const;
 
   /// From a solution under other loads or another travel, with the tangent there (null: unknown). A larger
-  /// load that cannot be reached directly is sought by the rim's travel, to the load's maximum; anything else
-  /// as without a start.
+  /// load that cannot be reached directly is sought by the rim's travel, to the load's maximum; what is not
+  /// found so is sought as without a start.
   Expected<RingEquilibrium<dim>, EquilibriumFailure> solve_from(
       const RingEquilibrium<dim>& solution, std::shared_ptr<const RingLinearization<dim>> linearization,
       const Interrupt& interrupt = {}) const;
