@@ -175,6 +175,31 @@ TEST(SoftWheels, ACurveEndsWhereEdgesCross) {
   EXPECT_FALSE(curve.back());
 }
 
+/// Steps of a curve may be large: what Newton's method does not reach from the load before is sought
+/// otherwise.
+TEST(SoftWheels, ACurveTakesLargeSteps) {
+  Case c = *parse_case(find_preset("soft-spokes")->text, "preset.toml").value;
+  c.grid.radial_cells = 14;
+  c.grid.angular_cells = 160;
+  c.optimizer.rim_band = c.optimizer.tread_band = 0.0129;
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto under = [&](double force) {
+    Case loaded = c;
+    loaded.load.force = force;
+    return rolling_model<2>(loaded);
+  };
+  const auto problem = *LargeDeformationProblem<2>::create(under(200));
+  const auto solution = problem.solve({shape, nullptr}, {{{0}}, {1}});
+  const auto afresh = LargeDeformationProblem<2>::create(under(2400))->solve({shape, nullptr}, {{{0}}, {1}});
+  ASSERT_TRUE(solution && afresh);
+  const std::vector models{under(2400)};
+  const auto curve = problem.curve(*solution, 0, models);
+  ASSERT_TRUE(curve[0]) << curve[0].failure().detail;
+  EXPECT_NEAR(
+      curve[0]->equilibrium.state.rim.towards_ground / afresh->equilibria.front().state.rim.towards_ground, 1,
+      1e-7);
+}
+
 TEST(SoftWheels, AreSolvedOrEndWithAReason) { expect_an_end_of_each(8, 1); }
 TEST(SoftWheels, AreSolvedOrEndWithAReasonSlow) { expect_an_end_of_each(200, 2); }
 
