@@ -14,6 +14,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/mechanics/equilibrium/large_deformation_problem.h"
+#include "wheelwright/mechanics/state/material_edges.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/run/study/study.h"
 
@@ -99,13 +100,24 @@ void expect_an_end_of_each(int n, unsigned seed) {
   EXPECT_GE(count["solved"], 0.75 * n);
 }
 
-/// A wheel whose spokes bow out carries no more than a certain load: that is found by the rim's travel, from
-/// any larger load, and is the largest force at a held travel.
-TEST(SoftWheels, TheLargestLoadIsFoundByTheTravel) {
+/// The preset with soft spokes on a coarse grid.
+Case coarse_soft_spokes() {
   Case c = *parse_case(find_preset("soft-spokes")->text, "preset.toml").value;
   c.grid.radial_cells = 14;
   c.grid.angular_cells = 160;
   c.optimizer.rim_band = c.optimizer.tread_band = 0.0129;
+  return c;
+}
+
+/// The solution of the load position at azimuth 0.
+auto over_a_spoke(const LargeDeformationProblem<2>& problem, const LevelSet<2>& shape) {
+  return problem.solve({shape, nullptr}, {{{0}}, {1}});
+}
+
+/// A wheel whose spokes bow out carries no more than a certain load: that is found by the rim's travel, from
+/// any larger load, and is the largest force at a held travel.
+TEST(SoftWheels, TheLargestLoadIsFoundByTheTravel) {
+  Case c = coarse_soft_spokes();
   constexpr double degree = std::numbers::pi / 180;
   SpokeShape& spoke = c.shapes.spokes.front();
   spoke.thickness = 0.012;
@@ -114,7 +126,7 @@ TEST(SoftWheels, TheLargestLoadIsFoundByTheTravel) {
   const LevelSet<2> shape = initial_shape<2>(c);
   const auto solve = [&](const Case& loaded) {
     const RollingModel<2> model = rolling_model<2>(loaded);
-    return LargeDeformationProblem<2>::create(model)->solve({shape, nullptr}, {{{0}}, {1}});
+    return over_a_spoke(*LargeDeformationProblem<2>::create(model), shape);
   };
   const auto force_at = [&](double travel) {
     Case held = c;
@@ -139,10 +151,7 @@ TEST(SoftWheels, TheLargestLoadIsFoundByTheTravel) {
 /// A curve of travels has the forces of wheels solved from rest up to the travel at which edges of
 /// neighbouring spokes cross, and says so beyond; loads beyond one that fails are not sought.
 TEST(SoftWheels, ACurveEndsWhereEdgesCross) {
-  Case c = *parse_case(find_preset("soft-spokes")->text, "preset.toml").value;
-  c.grid.radial_cells = 14;
-  c.grid.angular_cells = 160;
-  c.optimizer.rim_band = c.optimizer.tread_band = 0.0129;
+  const Case c = coarse_soft_spokes();
   const LevelSet<2> shape = initial_shape<2>(c);
   const auto at_travel = [&](double travel) {
     Case held = c;
@@ -150,17 +159,18 @@ TEST(SoftWheels, ACurveEndsWhereEdgesCross) {
     return rolling_model<2>(held);
   };
   const auto problem = *LargeDeformationProblem<2>::create(at_travel(0.004));
-  const auto solution = problem.solve({shape, nullptr}, {{{0}}, {1}});
+  const auto solution = over_a_spoke(problem, shape);
   ASSERT_TRUE(solution) << solution.failure().detail;
   std::vector<RollingModel<2>> models;
   for (const double travel : {0.008, 0.016, 0.022, 0.028}) models.push_back(at_travel(travel));
   const auto curve = problem.curve(*solution, 0, models);
+  const MaterialEdges<2> edges(shape, {models[0].grid, models[0].degree});
   int n_open = 0;
   for (size_t k = 0; k < models.size(); ++k) {
-    const auto afresh = LargeDeformationProblem<2>::create(models[k])->solve({shape, nullptr}, {{{0}}, {1}});
+    const auto afresh = over_a_spoke(*LargeDeformationProblem<2>::create(models[k]), shape);
     if (!afresh) continue;
     const auto& equilibrium = afresh->equilibria.front();
-    if (afresh->ring->edges.overlap(nodal_displacement(*afresh->ring, equilibrium))) {
+    if (edges.overlap(nodal_displacement(*afresh->ring, equilibrium))) {
       ASSERT_FALSE(curve[k]);
       EXPECT_EQ(curve[k].failure().reason, FailureReason::material_overlaps) << curve[k].failure().detail;
       continue;
@@ -178,21 +188,15 @@ TEST(SoftWheels, ACurveEndsWhereEdgesCross) {
 /// Steps of a curve may be large: what Newton's method does not reach from the load before is sought
 /// otherwise.
 TEST(SoftWheels, ACurveTakesLargeSteps) {
-  Case c = *parse_case(find_preset("soft-spokes")->text, "preset.toml").value;
-  c.grid.radial_cells = 14;
-  c.grid.angular_cells = 160;
-  c.optimizer.rim_band = c.optimizer.tread_band = 0.0129;
+  Case c = coarse_soft_spokes();
   const LevelSet<2> shape = initial_shape<2>(c);
-  const auto under = [&](double force) {
-    Case loaded = c;
-    loaded.load.force = force;
-    return rolling_model<2>(loaded);
-  };
-  const auto problem = *LargeDeformationProblem<2>::create(under(200));
-  const auto solution = problem.solve({shape, nullptr}, {{{0}}, {1}});
-  const auto afresh = LargeDeformationProblem<2>::create(under(2400))->solve({shape, nullptr}, {{{0}}, {1}});
+  c.load.force = 200;
+  const auto problem = *LargeDeformationProblem<2>::create(rolling_model<2>(c));
+  c.load.force = 2400;
+  const std::vector models{rolling_model<2>(c)};
+  const auto solution = over_a_spoke(problem, shape),
+             afresh = over_a_spoke(*LargeDeformationProblem<2>::create(models[0]), shape);
   ASSERT_TRUE(solution && afresh);
-  const std::vector models{under(2400)};
   const auto curve = problem.curve(*solution, 0, models);
   ASSERT_TRUE(curve[0]) << curve[0].failure().detail;
   EXPECT_NEAR(

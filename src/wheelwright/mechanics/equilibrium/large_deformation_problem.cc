@@ -9,6 +9,7 @@
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/mechanics/contact/tangent_stiffness.h"
 #include "wheelwright/mechanics/equilibrium/deformed_state.h"
+#include "wheelwright/mechanics/state/material_edges.h"
 
 namespace wheelwright {
 namespace {
@@ -39,27 +40,23 @@ std::optional<Failure> unsupported_model(const RollingModel<dim>& model) {
 
 /// The failure of a position whose edges cross.
 template <int dim>
-std::optional<EquilibriumFailure> overlap(const DeformableRing<dim>& ring,
+std::optional<EquilibriumFailure> overlap(const DeformableRing<dim>& ring, const MaterialEdges<dim>& edges,
                                           const RingEquilibrium<dim>& equilibrium) {
   const PolarGrid<dim>& grid = ring.domain.grid;
   const double travel = equilibrium.state.rim.towards_ground / (grid.outer_radius - grid.inner_radius);
-  if (travel < smallest_travel_of_overlap || !ring.edges.overlap(nodal_displacement(ring, equilibrium)))
-    return {};
+  if (travel < smallest_travel_of_overlap || !edges.overlap(nodal_displacement(ring, equilibrium))) return {};
   return EquilibriumFailure{overlap_failure(travel)};
 }
 
-/// A position, sought from a solution with the tangent there (null: unknown), and the tangent at its own
-/// solution, whose zone has at least so many columns to either side of the ground.
+/// Seeks a position from a solution with the tangent there (null: unknown). The zone of the tangent at its
+/// own solution has at least so many columns to either side of the ground.
 template <int dim>
 Expected<LinearizedEquilibrium<dim>, EquilibriumFailure> linearized_solution(
-    const EquilibriumSolver<dim>& solver, const DeformableRing<dim>& ring, const RingEquilibrium<dim>& from,
+    const EquilibriumSolver<dim>& solver, const RingEquilibrium<dim>& from,
     std::shared_ptr<const RingLinearization<dim>> tangent, int half_zone, const Interrupt& interrupt) {
   const auto solved = solver.solve_from(from, std::move(tangent), interrupt);
   if (!solved) return solved.failure();
-  auto linearized = solver.linearized(*solved, interrupt, half_zone);
-  if (!linearized) return linearized;
-  if (auto failure = overlap(ring, linearized->solution)) return *std::move(failure);
-  return linearized;
+  return solver.linearized(*solved, interrupt, half_zone);
 }
 
 /// Continues a displacement to the nodes of a ring that had no material: layer by layer, each node by the
@@ -141,13 +138,13 @@ class Continuation {
 }  // namespace
 
 template <int dim>
-DeformableRing<dim>::DeformableRing(const LevelSet<dim>& psi, CutDomain<dim> of_shape,
+DeformableRing<dim>::DeformableRing(const LevelSet<dim>& of_wheel, CutDomain<dim> of_shape,
                                     const HyperelasticTable<dim>& table, const RollingModel<dim>& model)
-    : domain(std::move(of_shape)),
+    : psi(of_wheel),
+      domain(std::move(of_shape)),
       forms(domain, table),
       contact(forms, model.contact_points),
       tread(forms, contact, model.materials, model.tread),
-      edges(psi, forms.space().lattice()),
       orders(forms),
       problem{forms, contact, orders} {}
 
@@ -233,6 +230,8 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
   const auto solver = [&](const RollingModel<dim>& model) {
     return EquilibriumSolver<dim>(model, solution.ring->problem, small_strains_->tread());
   };
+  const DeformableRing<dim>& ring = *solution.ring;
+  const MaterialEdges<dim> edges(ring.psi, ring.forms.space().lattice());
   LinearizedEquilibrium<dim> last{solution.equilibria[position], nullptr};
   std::optional<double> too_large;  // a load that failed
   std::vector<Expected<LoadedEquilibrium<dim>, EquilibriumFailure>> result;
@@ -242,8 +241,10 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
       continue;
     }
     const int next_half_zone = k + 1 < models.size() ? solver(models[k + 1]).first_half_zone() : 0;
-    auto point = linearized_solution(solver(models[k]), *solution.ring, last.solution, last.linearization,
-                                     next_half_zone, interrupt);
+    auto point =
+        linearized_solution(solver(models[k]), last.solution, last.linearization, next_half_zone, interrupt);
+    if (point)
+      if (auto failure = overlap(ring, edges, point->solution)) point = *std::move(failure);
     if (!point) {
       if (!models[k].travel && point.failure().reason != FailureReason::interrupted)
         too_large = models[k].load;

@@ -6,7 +6,6 @@
 #include "wheelwright/mechanics/equilibrium/ring_equilibrium.h"
 #include "wheelwright/mechanics/equilibrium/tread_observer.h"
 #include "wheelwright/mechanics/rolling/rolling_problem.h"
-#include "wheelwright/mechanics/state/material_edges.h"
 #include "wheelwright/mechanics/state/state.h"
 
 namespace wheelwright {
@@ -14,16 +13,16 @@ namespace wheelwright {
 /// The ring of one shape at large deformation: what its load positions share.
 template <int dim>
 struct DeformableRing {
+  LevelSet<dim> psi;
   CutDomain<dim> domain;
   RingForms<dim> forms;
   ContactObserver<dim> contact;
   TreadObserver<dim> tread;
-  MaterialEdges<dim> edges;
   EliminationOrders<dim> orders;
   RingProblem<dim> problem;
   std::vector<PhaseTime> phases;
 
-  DeformableRing(const LevelSet<dim>& psi, CutDomain<dim> of_shape, const HyperelasticTable<dim>& table,
+  DeformableRing(const LevelSet<dim>& of_wheel, CutDomain<dim> of_shape, const HyperelasticTable<dim>& table,
                  const RollingModel<dim>& model);
   DeformableRing(const DeformableRing&) = delete;
   DeformableRing& operator=(const DeformableRing&) = delete;
