@@ -22,8 +22,8 @@ class HalfPlane {
     return {piece_.axis[0] + x[0] * along_[0], piece_.axis[1] + x[0] * along_[1], x[1]};
   }
 
-  /// Where the half-plane meets the piece, from the first edge to the other or to the axis; nothing if that
-  /// is not one curve.
+  /// Returns the curve in which the half-plane meets the piece, from the first edge to the other or to the
+  /// axis; nothing if they do not meet in one curve.
   std::optional<Profile> profile(const std::unordered_set<int>& other) const {
     const auto begin = only_crossing(piece_.first);
     if (!begin || (!piece_.other.empty() && !only_crossing(piece_.other))) return {};
@@ -73,7 +73,7 @@ class HalfPlane {
     return (beside(piece_.sides.from(side)) < 0) != (beside(piece_.sides.to(side)) < 0);
   }
 
-  /// Of a crossed side; the distance is negative beyond the axis.
+  /// Returns the point at which the half-plane crosses a side. Its distance is negative beyond the axis.
   Vec<2> crossing(int side) const {
     const int from = piece_.sides.from(side), to = piece_.sides.to(side);
     const double a = beside(from), b = beside(to);
@@ -188,13 +188,13 @@ Expected<SplineSurface, std::string> lofted_hole(const HolePiece& piece, const Z
   }
 }
 
-LoftDeviation deviation(const SplineSurface& surface, const ZeroSurface& zero, int parts) {
-  LoftDeviation largest{0, {}};
+SurfaceDeviation deviation(const SplineSurface& surface, const ZeroSurface& zero, int parts) {
+  SurfaceDeviation largest{0, {}};
   for (int i = 0; i < parts * surface.columns; ++i)
     for (int j = 0; j <= parts * surface.rows; ++j) {
       const Vec<3> x = at(surface, double(i) / parts, double(j) / parts).position;
       const double found = zero.at(x).distance();
-      if (found > largest.distance) largest = {found, x};
+      if (found > largest.distance) largest = {found, polar<3>(x)};
     }
   return largest;
 }

@@ -4,6 +4,7 @@
 
 #include "wheelwright/base/expected.h"
 #include "wheelwright/cad/solid/spline_surface.h"
+#include "wheelwright/shape/surface/deviation.h"
 #include "wheelwright/shape/surface/sides.h"
 #include "wheelwright/shape/surface/zero_surface.h"
 
@@ -27,11 +28,7 @@ struct HolePiece {
 Expected<SplineSurface, std::string> lofted_hole(const HolePiece& piece, const ZeroSurface& zero,
                                                  double tolerance);
 
-/// The largest distance [m] of the surface from {psi = 0}, with `parts` samples per interval, and its place.
-struct LoftDeviation {
-  double distance;
-  Vec<3> place;  ///< Cartesian [m]
-};
-LoftDeviation deviation(const SplineSurface& surface, const ZeroSurface& zero, int parts);
+/// The largest distance of the surface from {psi = 0}, with `parts` samples per interval.
+SurfaceDeviation deviation(const SplineSurface& surface, const ZeroSurface& zero, int parts);
 
 }  // namespace wheelwright::cad

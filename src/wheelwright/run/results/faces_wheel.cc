@@ -22,14 +22,15 @@ FacetedSolid facets_of(const SurfaceMesh& mesh, const LevelSet<3>& psi) {
 
 struct Faces {
   SolidFaces solid;
+  SurfaceDeviation deviation;
   std::string why_facets;
 };
 
 /// The largest distance of facets from {psi = 0}, at the points that divide their sides into equal parts.
-cad::LoftDeviation deviation(const FacetedSolid& solid, const LevelSet<3>& psi) {
+SurfaceDeviation deviation(const FacetedSolid& solid, const LevelSet<3>& psi) {
   constexpr int parts = 8;
   const ZeroSurface zero(psi);
-  cad::LoftDeviation largest{0, {}};
+  SurfaceDeviation largest{0, {}};
   for (const auto& [corners, shell] : solid.triangles) {
     const Vec<3>&a = solid.points[corners[0]], &b = solid.points[corners[1]], &c = solid.points[corners[2]];
     for (int i = 0; i <= parts; ++i)
@@ -39,8 +40,19 @@ cad::LoftDeviation deviation(const FacetedSolid& solid, const LevelSet<3>& psi) 
         const double to_cylinders =
             std::min(std::abs(radius - solid.inner_radius), std::abs(radius - solid.outer_radius));
         const double found = std::min(zero.at(x).distance(), to_cylinders);
-        if (found > largest.distance) largest = {found, x};
+        if (found > largest.distance) largest = {found, polar<3>(x)};
       }
+  }
+  return largest;
+}
+
+SurfaceDeviation deviation(const cad::LoftedSolid& solid, const LevelSet<3>& psi) {
+  constexpr int parts = 4;
+  const ZeroSurface zero(psi);
+  SurfaceDeviation largest{0, {}};
+  for (const auto& hole : solid.holes) {
+    const auto found = cad::deviation(hole.surface, zero, parts);
+    if (found.distance > largest.distance) largest = found;
   }
   return largest;
 }
@@ -60,17 +72,18 @@ Expected<SurfaceMesh, FacesFaults> checked_and_simplified(const SurfaceMesh& sur
 }
 
 /// Facets that stay within the tolerance everywhere, from those simplified first.
-Expected<FacetedSolid, FacesFaults> facets_within(double tolerance, const SurfaceMesh& surface,
-                                                  const LevelSet<3>& psi, FacetedSolid solid, double share) {
+Expected<Faces, FacesFaults> facets_within(double tolerance, const SurfaceMesh& surface,
+                                           const LevelSet<3>& psi, FacetedSolid solid, double share,
+                                           std::string why_facets) {
   constexpr double smallest_share = 0.1;
   for (;;) {
     const auto found = deviation(solid, psi);
-    if (found.distance <= tolerance) return solid;
+    if (found.distance <= tolerance) return Faces{std::move(solid), found, std::move(why_facets)};
     share /= 2;
     if (share < smallest_share)
       return FacesFaults{
           {fmt::format("{}: facets deviate by {:.4f} mm from the level set; increase --tolerance",
-                       place(polar<3>(found.place)), found.distance * millimetres)}};
+                       place(found.place), found.distance * millimetres)}};
     const auto mesh = checked_and_simplified(surface, psi, share * tolerance);
     if (!mesh) return mesh.failure();
     solid = facets_of(*mesh, psi);
@@ -85,23 +98,13 @@ Expected<Faces, FacesFaults> faces_of(const SurfaceMesh& surface, const LevelSet
   std::string why_facets = "smooth ones do not make a valid solid";
   if (kind != FaceKind::facets) {
     auto lofted = cad::lofted_solid(*mesh, psi, tolerance);
-    if (lofted) return Faces{*std::move(lofted), {}};
+    if (lofted) {
+      const auto found = deviation(*lofted, psi);
+      return Faces{*std::move(lofted), found, {}};
+    }
     why_facets = lofted.failure();
   }
-  auto facets = facets_within(tolerance, surface, psi, facets_of(*mesh, psi), share);
-  if (!facets) return facets.failure();
-  return Faces{*std::move(facets), std::move(why_facets)};
-}
-
-cad::LoftDeviation deviation(const cad::LoftedSolid& solid, const LevelSet<3>& psi) {
-  constexpr int parts = 4;
-  const ZeroSurface zero(psi);
-  cad::LoftDeviation largest{0, {}};
-  for (const auto& hole : solid.holes) {
-    const auto found = cad::deviation(hole.surface, zero, parts);
-    if (found.distance > largest.distance) largest = found;
-  }
-  return largest;
+  return facets_within(tolerance, surface, psi, facets_of(*mesh, psi), share, std::move(why_facets));
 }
 
 std::string count(const FacetedSolid& solid) {
@@ -121,17 +124,14 @@ Expected<FittedFacesWheel, FacesFaults> fitted_faces_wheel(const SurfaceModel& w
                                                            double tolerance) {
   auto whole = faces_of(wheel.surface, wheel.shape, kind, tolerance);
   if (!whole) return whole.failure();
-  FittedFacesWheel fitted{
-      {wheel.title, wheel.program, std::move(whole->solid), {}}, std::move(whole->why_facets), 0, 0, 0, {}};
-  std::visit(
-      [&](const auto& solid) {
-        fitted.volume = enclosed_volume(solid);
-        const auto found = deviation(solid, wheel.shape);
-        fitted.deviation = found.distance;
-        fitted.place = polar<3>(found.place);
-      },
-      fitted.model.solid);
-  fitted.volume_error = fitted.volume / enclosed_volume(facets_of(wheel.surface, wheel.shape)) - 1;
+  const double volume = std::visit([](const auto& solid) { return enclosed_volume(solid); }, whole->solid);
+  const double fine = enclosed_volume(facets_of(wheel.surface, wheel.shape));
+  FittedFacesWheel fitted{{wheel.title, wheel.program, std::move(whole->solid), {}},
+                          std::move(whole->why_facets),
+                          volume,
+                          volume / fine - 1,
+                          whole->deviation.distance,
+                          whole->deviation.place};
   for (const SurfaceLayer& layer : wheel.layers) {
     auto part = faces_of(layer.surface, layer.shape, kind, tolerance);
     if (!part) return part.failure();
