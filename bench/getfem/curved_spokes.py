@@ -52,12 +52,7 @@ class Spokes(soft_wheel.SoftWheel):
 
     def forces(self, column, travels):
         """The force on the ground at each travel [N/m], each solved from the one before."""
-        angle = 2 * np.pi / self.angular_cells
-        ground = np.array([np.cos(column * angle), np.sin(column * angle)])
-        half = self.angular_cells // 8
-        near = np.arange(round(column) - half, round(column) + half + 1) % self.angular_cells
-        tread = np.stack([near * self.radial_cells + self.radial_cells - 1, np.zeros(len(near), int)])
-        self.mesh.set_region(wheel.CONTACT, tread)
+        ground = self.ground_at(column, self.angular_cells // 8)
         x = np.zeros(self.space.nbdof() + 1)
         result = []
         for travel in travels:
@@ -72,9 +67,8 @@ class Spokes(soft_wheel.SoftWheel):
             residual = self._residual(x, ground, 0.0)[:-1]
             if np.linalg.norm(residual) < 1e-7 * wheel.LOAD:
                 return x
-            bulk, contact = self._assembled(2, x, ground)
-            tangent = gf.Spmat("add", gf.Spmat("add", self.ghost, bulk), contact)
-            step = gf.linsolve_mumps(gf.Spmat("copy", tangent, free, free), residual).ravel()
+            tangent = gf.Spmat("copy", self.tangent(x, ground), free, free)
+            step = gf.linsolve_mumps(tangent, residual).ravel()
             x = x + np.append(step, 0.0)
         raise RuntimeError("Newton's method does not converge")
 

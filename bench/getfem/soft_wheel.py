@@ -98,14 +98,21 @@ class SoftWheel(wheel.Wheel):
     def strain_energy(self, x):
         return gf.asm_generic(self.material, 0, ENERGY, -1, "u", 1, self.space, x[:-1], *self.data)
 
-    def solve(self, column, n_steps):
-        """Newton's method in steps of the load."""
+    def ground_at(self, column, half):
+        """The direction of the ground below a column; contact is sought in so many columns to either side."""
         angle = 2 * np.pi / self.angular_cells
-        ground = np.array([np.cos(column * angle), np.sin(column * angle)])
-        near = np.arange(round(column) - self.angular_cells // 16, round(column) + self.angular_cells // 16 + 1)
-        near %= self.angular_cells
+        near = np.arange(round(column) - half, round(column) + half + 1) % self.angular_cells
         tread = np.stack([near * self.radial_cells + self.radial_cells - 1, np.zeros(len(near), int)])
         self.mesh.set_region(wheel.CONTACT, tread)
+        return np.array([np.cos(column * angle), np.sin(column * angle)])
+
+    def tangent(self, x, ground):
+        bulk, contact = self._assembled(2, x, ground)
+        return gf.Spmat("add", gf.Spmat("add", self.ghost, bulk), contact)
+
+    def solve(self, column, n_steps):
+        """Newton's method in steps of the load."""
+        ground = self.ground_at(column, self.angular_cells // 16)
         x = np.zeros(self.space.nbdof() + 1)
         x[-1] = 1e-4
         for load in wheel.LOAD * np.arange(1, n_steps + 1) / n_steps:
@@ -118,9 +125,7 @@ class SoftWheel(wheel.Wheel):
             norm = np.linalg.norm(residual)
             if norm < 1e-7 * wheel.LOAD:
                 return x
-            bulk, contact = self._assembled(2, x, ground)
-            tangent = gf.Spmat("add", gf.Spmat("add", self.ghost, bulk), contact)
-            step = gf.linsolve_mumps(tangent, residual).ravel()
+            step = gf.linsolve_mumps(self.tangent(x, ground), residual).ravel()
             share = 1.0
             while True:
                 candidate = x + share * step
