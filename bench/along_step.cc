@@ -37,7 +37,7 @@ struct AlongStep {
   std::vector<double> changes;  ///< at the lengths; NaN: there is no such shape
 };
 
-/// Of the parts of the move [cells].
+/// By how far the parts of the move displace the boundary at most [cells].
 std::vector<double> lengths() {
   std::vector<double> result;
   for (int k = 0; k <= steps_per_decade * decades; ++k)

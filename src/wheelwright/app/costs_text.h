@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// What the designs of a plan will cost in memory and time on so many threads, in lines that end with '\n'.
+/// Says how much memory and time the designs of a plan need on so many threads, in lines that end with '\n'.
 /// Empty if there are no designs.
 std::string costs_text(const DesignPlan& plan, int threads, bool wants_finalists);
 

@@ -8,7 +8,7 @@
 
 namespace wheelwright {
 
-/// What designs cost.
+/// The memory and the time that designs need.
 struct DesignCosts {
   double bytes;                ///< of the run that needs the most memory
   double bytes_on_finer_grid;  ///< to solve its last shape there
