@@ -220,9 +220,29 @@ template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
                                                         double boundary_measure,
                                                         const FeatureSize& size) const {
+  if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
   return with_widths(psi, size, true, [&](const LevelSet<dim>& shape) {
-    return wheelwright::with_measure<dim>(shape, bands_, target, boundary_measure, cut_points_);
+    return wheelwright::with_measure<dim>(shifted(shape), target, boundary_measure, cut_points_);
   });
+}
+
+/// A spline is shifted by its coefficients, so that it remains one: bands clip them, and would clip nodes to
+/// another shape. A drawn level set changes like its spline.
+template <int dim>
+ShapeOfShift<dim> Evolver<dim>::shifted(const LevelSet<dim>& psi) const {
+  if (space_ != ShapeSpace::spline)
+    return [&](double shift) { return wheelwright::shifted<dim>(psi, bands_, shift); };
+  const LevelSet<dim> coefficients = spline_coefficients(psi);
+  return [this, &psi, coefficients, unmoved = spline_level_set(coefficients)](double shift) {
+    if (shift == 0) return psi;
+    LevelSet<dim> moved = coefficients;
+    for (std::size_t node = 0; node < moved.values.size(); ++node)
+      if (!bands_.nodes()[node]) moved.values[node] += shift;
+    LevelSet<dim> result = spline_level_set(bands_.keep_design(std::move(moved)));
+    for (std::size_t node = 0; node < result.values.size(); ++node)
+      result.values[node] += psi.values[node] - unmoved.values[node];
+    return like(psi, std::move(result));
+  };
 }
 
 /// Measures the shape, or shifts it to a measure, and widens narrow places until none is left. If much of a

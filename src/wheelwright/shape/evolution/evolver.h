@@ -122,6 +122,9 @@ class Evolver {
   Expected<LevelSet<dim>> widened(const LevelSet<dim>& psi, const std::vector<Width<dim>>& widths,
                                   bool keeps_measure) const;
 
+  /// The shapes that with_measure() chooses from. They refer to psi.
+  ShapeOfShift<dim> shifted(const LevelSet<dim>& psi) const;
+
   /// The stages act on the design of a shape. shape_of() returns the shape of a design, with the bands kept.
   LevelSet<dim> design_of(const LevelSet<dim>& psi) const;
   LevelSet<dim> shape_of(LevelSet<dim> design) const;

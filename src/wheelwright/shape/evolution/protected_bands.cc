@@ -1,5 +1,7 @@
 #include "wheelwright/shape/evolution/protected_bands.h"
 
+#include "wheelwright/shape/evolution/spline_level_set.h"
+
 namespace wheelwright {
 
 namespace {
@@ -16,6 +18,35 @@ double draft_of_bands(const std::optional<Mould>& mould, const PolarGrid<dim>& g
       return mould->slope * (std::max(start, grid.width - start) - std::abs(polar[2] - start));
     }
   return 0;
+}
+
+/// The largest coefficients below a bound whose spline is below it too, at all nodes. They are below the
+/// bound inside an annulus, where that has a kink from which it rises.
+template <int dim>
+std::vector<double> bound_of_coefficients(const Lattice<dim>& lattice, const std::vector<double>& bound) {
+  constexpr int max_corrections = 60;
+  constexpr double factor = 1.5;  // a coefficient has two thirds of the weight at its vertex
+  const double rounding = 1e-10 * lattice.grid().resolution();
+  LevelSet<dim> coefficients{lattice, bound};
+  for (int k = 0; k < max_corrections; ++k) {
+    const LevelSet<dim> spline = spline_level_set(coefficients);
+    std::vector<double> excess(bound.size(), 0);  // the largest of the nodes beside a vertex
+    for (int node = 0; node < lattice.n_nodes(); ++node) {
+      const double at_node = spline.values[node] - bound[node];
+      if (at_node <= rounding) continue;
+      auto inside = lattice.node_position(node), outside = inside;
+      inside[0] -= inside[0] % lattice.degree();
+      outside[0] += outside[0] % lattice.degree();
+      for (const auto& vertex : {inside, outside}) {
+        double& largest = excess[lattice.node_index(vertex)];
+        largest = std::max(largest, at_node);
+      }
+    }
+    for (std::size_t node = 0; node < bound.size(); ++node)
+      coefficients.values[node] -= factor * excess[node];
+    if (std::ranges::max(excess) == 0) break;
+  }
+  return coefficients.values;
 }
 
 }  // namespace
@@ -39,6 +70,7 @@ ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, const Bands& ba
                    });
     upper_bound_[node] = distance(place);
   }
+  bound_of_coefficients_ = bound_of_coefficients(lattice, upper_bound_);
   if (mould_) moulded_ = std::make_shared<const MouldedShapes<dim>>(lattice, *mould_, upper_bound_);
 }
 
@@ -67,7 +99,10 @@ LevelSet<dim> ProtectedBands<dim>::keep(LevelSet<dim> psi) const {
 
 template <int dim>
 LevelSet<dim> ProtectedBands<dim>::keep_design(LevelSet<dim> coefficients) const {
-  return moulded_ ? moulded_->keep_coefficients(std::move(coefficients)) : clip(std::move(coefficients));
+  if (moulded_) return moulded_->keep_coefficients(std::move(coefficients));
+  for (std::size_t node = 0; node < coefficients.values.size(); ++node)
+    coefficients.values[node] = std::min(coefficients.values[node], bound_of_coefficients_[node]);
+  return coefficients;
 }
 
 template <int dim>

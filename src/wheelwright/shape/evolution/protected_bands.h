@@ -35,8 +35,10 @@ class ProtectedBands {
   /// overlapping hole of `before` did. The place of the event is at the band.
   std::vector<ShapeEvent<dim>> contacts(const Components<dim>& before, const Components<dim>& after) const;
 
-  /// Whether clip() would change the value of a node, or its value is within `margin` [m] of that.
-  bool is_clipped(int node, double value, double margin) const { return value > upper_bound_[node] - margin; }
+  /// Whether keep_design() would clip the coefficient of a node, or its value is within `margin` [m] of that.
+  bool is_clipped(int node, double coefficient, double margin) const {
+    return coefficient > bound_of_coefficients_[node] - margin;
+  }
 
   /// Whether a boundary point lies where clip() stops the boundary, up to a tenth of the resolution.
   bool touches(const SurfacePoint<dim>& point) const;
@@ -49,7 +51,7 @@ class ProtectedBands {
   std::vector<SolidAnnulus> between_;
   std::vector<bool> nodes_;
   std::optional<Mould> mould_;
-  std::vector<double> upper_bound_;
+  std::vector<double> upper_bound_, bound_of_coefficients_;
   std::shared_ptr<const MouldedShapes<dim>> moulded_;
 };
 

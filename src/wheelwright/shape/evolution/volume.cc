@@ -11,13 +11,6 @@ namespace {
 
 constexpr int max_evaluations = 60;
 
-template <int dim>
-LevelSet<dim> shifted(LevelSet<dim> psi, const ProtectedBands<dim>& bands, double shift) {
-  for (std::size_t node = 0; node < psi.values.size(); ++node)
-    if (!bands.nodes()[node]) psi.values[node] += shift;
-  return bands.keep(std::move(psi));
-}
-
 /// Shifts between which the solution lies: the measure is above the target for a shift that is too small, and
 /// below it for one that is too large.
 struct Bracket {
@@ -38,15 +31,23 @@ Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi, int points) {
 }
 
 template <int dim>
-Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBands<dim>& bands,
-                                          double target, double boundary_measure, int points) {
+LevelSet<dim> shifted(LevelSet<dim> psi, const ProtectedBands<dim>& bands, double shift) {
+  for (std::size_t node = 0; node < psi.values.size(); ++node)
+    if (!bands.nodes()[node]) psi.values[node] += shift;
+  return bands.keep(std::move(psi));
+}
+
+template <int dim>
+Expected<MeasuredShape<dim>> with_measure(const ShapeOfShift<dim>& shape_of, double target,
+                                          double boundary_measure, int points) {
+  LevelSet<dim> psi = shape_of(0);
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
-  const auto& grid = psi.lattice.grid();
+  const PolarGrid<dim> grid = psi.lattice.grid();
   const double reach = grid.outer_radius - grid.inner_radius;
   Bracket bracket{-reach, reach};
   double shift = 0, slope = -boundary_measure, last_shift = 0, last_error = 0;
   for (int k = 0; k < max_evaluations; ++k) {
-    auto candidate = measured(shifted(psi, bands, shift), points);
+    auto candidate = measured(std::move(psi), points);
     if (!candidate) return candidate.failure();
     const double error = candidate->measure - target;
     if (std::abs(error) <= measure_tolerance * target) return candidate;
@@ -57,6 +58,7 @@ Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const Protec
     shift -= error / slope;
     if (!bracket.contains(shift)) shift = bracket.middle();
     if (bracket.too_large - bracket.too_small < 1e-12 * reach) break;
+    psi = shape_of(shift);
   }
   const bool on_end = bracket.too_large == reach || bracket.too_small == -reach;
   return Failure{
@@ -76,6 +78,8 @@ double proportional_multiplier(std::span<const SurfaceSample<dim>> gradient, dou
 
 template decltype(measured<2>) measured<2>;
 template decltype(measured<3>) measured<3>;
+template decltype(shifted<2>) shifted<2>;
+template decltype(shifted<3>) shifted<3>;
 template decltype(with_measure<2>) with_measure<2>;
 template decltype(with_measure<3>) with_measure<3>;
 template decltype(proportional_multiplier<2>) proportional_multiplier<2>;
