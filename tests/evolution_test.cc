@@ -541,6 +541,32 @@ TEST(Evolver, MovesAShapeOfAGivenMeasureByNothingIfItIsToMoveByNothing) {
   }
 }
 
+TEST(Evolver, RepairsShapesWithinTheSpaceOfItsMoves) {
+  const Lattice<2> lattice = lattice_of(2);
+  EvolutionOptions options{.velocity = {ExtensionKind::h1, 2}, .bands = {{0.01, 1}, {0.01, 1}}};
+  options.space = ShapeSpace::spline;
+  const Evolver<2> evolver(lattice, options);
+  const double h = lattice.grid().resolution();
+  const std::vector<double> outwards(lattice.n_nodes(), 1.0);
+  const auto change = [&](const LevelSet<2>& psi) {
+    return largest_difference(psi.values, evolver.move(psi, outwards, 1e-12 * h)->values) / h;
+  };
+  const std::vector<Circle> near{{0.25, 0.1, 0.03}, {0.25, 0.353, 0.03}}, larger{{0.27, 0.2, 0.04}};
+  const auto thin = make_level_set<2>(lattice, near);
+  const auto thick = evolver.measured(thin, {.wall = 0.011, .gap = 0.012});
+  ASSERT_TRUE(thick) << thick.failure().detail;
+  EXPECT_GT(largest_difference(thick->shape.values, thin.values), 0.1 * h);
+  EXPECT_LT(change(thick->shape), 1e-9);
+  LevelSet<2> with_island = make_level_set<2>(lattice, larger);
+  const auto island = make_level_set<2>(lattice, std::vector<Circle>{{0.27, 0.2, 0.01}});
+  for (std::size_t n = 0; n < island.values.size(); ++n)
+    with_island.values[n] = std::min(with_island.values[n], -island.values[n]);
+  const auto attached = evolver.without_islands(with_island, 1);
+  ASSERT_TRUE(attached);
+  EXPECT_EQ(attached->removed.size(), 1u);
+  EXPECT_LT(change(attached->psi), 1e-9);
+}
+
 TEST(ProportionalMultiplier, IsTheFormulaOfThePaper) {
   std::vector<SurfaceSample<2>> samples(3);
   for (int k = 0; k < 3; ++k) samples[k].value = k * k;

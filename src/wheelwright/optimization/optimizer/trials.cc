@@ -253,7 +253,7 @@ std::vector<Trial<dim>> Trials<dim>::repaired(const OptimizationState<dim>& stat
 template <int dim>
 Trial<dim> Trials<dim>::repaired(const OptimizationState<dim>& state, const LevelSet<dim>& shape) const {
   const Stopwatch watch;
-  Trial<dim> trial = unmoved<dim>(state.iteration + 1, evolver_->keep_bands(shape));
+  Trial<dim> trial = unmoved<dim>(state.iteration + 1, evolver_->in_space(shape));
   auto finished = finished_shape(
       *evolver_, trial.shape,
       requirements(state.target_measure, boundary_measure(state.evaluation.boundary), widths_after(state)));

@@ -140,9 +140,20 @@ Expected<LevelSet<dim>> Evolver<dim>::finished(LevelSet<dim> design,
                                                const std::vector<MirrorPlane>& symmetries,
                                                const char* what) const {
   if (auto failure = check_finite<dim>(lattice_, design.values, what)) return *failure;
+  return shape_with(symmetries, std::move(design));
+}
+
+template <int dim>
+LevelSet<dim> Evolver<dim>::shape_with(const std::vector<MirrorPlane>& symmetries,
+                                       LevelSet<dim> design) const {
   for (const MirrorPlane plane : symmetries) design = mirror_symmetric_part(design, plane);
   // The nodes of a spline are invariant up to rounding only.
   return invariant_part(shape_of(invariant_part(std::move(design), invariance_)), invariance_);
+}
+
+template <int dim>
+LevelSet<dim> Evolver<dim>::in_space(const LevelSet<dim>& psi) const {
+  return space_ == ShapeSpace::spline ? shape_with(symmetries(psi), design_of(psi)) : keep_bands(psi);
 }
 
 template <int dim>
@@ -206,7 +217,7 @@ LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi, const Featur
   if (!size.any()) return psi;
   LevelSet<dim> result = with_feature_size(psi, size);
   if (result.values == psi.values) return result;
-  return like(psi, std::move(result));
+  return in_space(like(psi, std::move(result)));
 }
 
 template <int dim>
@@ -312,7 +323,9 @@ Expected<LevelSet<dim>> Evolver<dim>::widened(const LevelSet<dim>& psi, const st
 template <int dim>
 Expected<AttachedShape<dim>> Evolver<dim>::without_islands(const LevelSet<dim>& psi, double largest) const {
   auto attached = wheelwright::without_islands<dim>(psi, largest);
-  if (attached) attached->psi = like(psi, std::move(attached->psi));
+  if (!attached) return attached;
+  attached->psi = like(psi, std::move(attached->psi));
+  if (!attached->removed.empty()) attached->psi = in_space(attached->psi);
   return attached;
 }
 

@@ -86,6 +86,10 @@ class Evolver {
   Expected<LevelSet<dim>> smooth(const LevelSet<dim>& psi) const;
   LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
 
+  /// The shape of the ShapeSpace that a move by nothing makes of this one: what a shape that was not moved
+  /// but made otherwise must become, or the next move changes it, however short. Keeps the bands.
+  LevelSet<dim> in_space(const LevelSet<dim>& psi) const;
+
   /// The minimum widths of walls and gaps in every shape.
   const FeatureSize& features() const { return features_; }
 
@@ -131,6 +135,9 @@ class Evolver {
 
   /// The shape with the symmetries that others must have like this one.
   LevelSet<dim> like(const LevelSet<dim>& other, LevelSet<dim> psi) const;
+
+  /// The shape of a design, with these symmetries.
+  LevelSet<dim> shape_with(const std::vector<MirrorPlane>& symmetries, LevelSet<dim> design) const;
 
   /// The shape of the design that is the result of a stage, symmetrized.
   Expected<LevelSet<dim>> finished(LevelSet<dim> design, const std::vector<MirrorPlane>& symmetries,
