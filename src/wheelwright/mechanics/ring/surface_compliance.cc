@@ -123,6 +123,20 @@ Matrix outer_compliance(const std::vector<Matrix>& by_sector, int per_column, in
   return result;
 }
 
+/// The displacements of the outer line in `n_to` columns of the ring from `first_to` on for loads on columns
+/// from `first_from` on. The whole compliance between them would take most of the memory of a shape in 3D.
+Matrix outer_displacements(const std::vector<Matrix>& by_sector, int per_column, int per_sector, int first_to,
+                           int n_to, int first_from, const Matrix& loads) {
+  Matrix result(per_column * n_to, loads.columns());
+  for (const SectorPart& from : by_sectors(first_from, loads.rows() / per_column, per_sector))
+    for (const SectorPart& to : by_sectors(first_to, n_to, per_sector)) {
+      const Matrix g = outer_compliance(by_sector, per_column, per_sector, first_to + to.first, to.n,
+                                        first_from + from.first, from.n);
+      multiply_rows(1, g, loads, per_column * from.first, 1, result, per_column * to.first);
+    }
+  return result;
+}
+
 /// Runs of neighbours among ascending numbers, of at most `longest`.
 std::vector<std::span<const int>> runs(std::span<const int> numbers, int longest) {
   std::vector<std::span<const int>> result;
@@ -147,22 +161,21 @@ void apply_to_outer_line(const CyclicStiffness<dim>& ring, const Tread<dim>& tre
   const auto groups = runs(seams, seams_together);
   parallel_for(static_cast<int>(groups.size()), [&](int group) {
     const int first = groups[group].front(), n = static_cast<int>(groups[group].size());
-    const int n_from = n + 2 * reach, n_to = n + 2 * (width + 1 + reach);
-    const Matrix g = outer_compliance(by_sector, n_base, per_sector, first - width - 1 - reach, n_to,
-                                      first - reach, n_from);
-    Matrix on_base(n_base * n_from, n_line * n);  // loads on the lines, as loads on the base
+    Matrix on_base(n_base * (n + 2 * reach), n_line * n);  // loads on the lines, as loads on the base
     for (int k = 0; k < n; ++k)
       for (int i = 0; i < n_line; ++i)
         for (int j = 0; j < tread.line_of_base().columns(); ++j)
           on_base(n_base * k + j, n_line * k + i) = tread.line_of_base()(i, j);
-    const Matrix of_lines = product(g, Op::none, on_base, Op::none);
+    const Matrix of_lines = outer_displacements(by_sector, n_base, per_sector, first - width - 1 - reach,
+                                                n + 2 * (width + 1 + reach), first - reach, on_base);
+    const int n_seen = 2 * (width + 1 + reach) + 1;
     for (int k = 0; k < n; ++k) {
-      auto base = Matrix::unfilled(n_base * (2 * (width + 1 + reach) + 1), map.n_seam());
-      for (int i = 0; i < map.n_seam(); ++i) {
-        const double* from =
-            i < n_base ? g.column(n_base * (k + reach) + i) : of_lines.column(n_line * k + i - n_base);
-        std::copy_n(from + n_base * k, base.rows(), base.column(i));
-      }
+      const Matrix of_base = outer_compliance(by_sector, n_base, per_sector, first + k - width - 1 - reach,
+                                              n_seen, first + k, 1);
+      auto base = Matrix::unfilled(n_base * n_seen, map.n_seam());
+      for (int i = 0; i < map.n_seam(); ++i)
+        std::copy_n(i < n_base ? of_base.column(i) : of_lines.column(n_line * k + i - n_base) + n_base * k,
+                    base.rows(), base.column(i));
       responses[first + k] = map.seen(base, width);
     }
   });
