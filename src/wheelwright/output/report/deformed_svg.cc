@@ -234,13 +234,28 @@ std::string footnote(double magnification, double foot) {
       P::margin, P::top + P::wheel_size + foot - 12, magnification);
 }
 
+namespace {
+
+/// A font size [px] with which a line of text fits into this width, for a font whose characters are 0.52 of
+/// its size wide on average.
+double fitting_font_size(const std::string& text, double width) {
+  constexpr double usual = 14, aspect = 0.52;
+  const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  const auto n = static_cast<double>(std::ranges::count_if(text, starts_character));
+  return std::min(usual, width / (aspect * n));
+}
+
+}  // namespace
+
 template <int dim>
 std::string deformed_document(const DeformedPicture<dim>& picture, const std::string& wheel,
                               const ColourScale& scale, double foot, const std::string& notes) {
-  constexpr double bar_space = 150;
-  return titled_svg(P::wheel_size + 2 * P::margin + bar_space, P::wheel_size + P::top + foot, picture.title,
-                    P::margin) +
-         fmt::format("<text x=\"{}\" y=\"60\">{}</text>\n", P::margin, facts(picture)) + wheel +
+  constexpr double bar_space = 150, width = P::wheel_size + 2 * P::margin + bar_space;
+  const std::string line = facts(picture);
+  return titled_svg(width, P::wheel_size + P::top + foot, picture.title, P::margin) +
+         fmt::format("<text x=\"{}\" y=\"60\" font-size=\"{:.3g}\">{}</text>\n", P::margin,
+                     fitting_font_size(line, width - 2 * P::margin), line) +
+         wheel +
          colour_bar(scale, picture.scalar.name, picture.scalar.unit, P::margin + P::wheel_size + 40,
                     P::top + 0.5 * P::wheel_size + 160) +
          layer_legend(picture.layers, P::margin + P::wheel_size + 40, P::top + 0.5 * P::wheel_size + 210) +
