@@ -160,7 +160,7 @@ tread_levels = 0
 [volume]
 target = 0.8095737468130748
 [optimizer]
-iterations = 20
+iterations = 100
 accepted_increase = 0
 tolerance = 0
 redistance_every = 3

@@ -142,7 +142,9 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
     return StopReason::gave_up;
   }
   if (state.iteration < options_.iterations && stop_requested()) return StopReason::stop_requested;
-  const auto repair = needs_repair(options_, state) ? repair_widths(state, observer) : Repair::nothing;
+  const auto repair = needs_repair(options_, state) || begins_with_sharp_corners(state)
+                          ? repair_widths(state, observer)
+                          : Repair::nothing;
   if (repair == Repair::interrupted) return StopReason::stop_requested;
   if (repair == Repair::done) return std::nullopt;
   const auto reason = descend(state, observer, stop_requested);
@@ -181,7 +183,7 @@ typename ShapeOptimizer<dim>::Repair ShapeOptimizer<dim>::repair_widths(Optimiza
 
 /// A free descent splits holes that are only about two cells wide into slits that cannot be repaired: a shape
 /// with such holes keeps the final widths from the start, if it has them. Slightly sharper corners, which
-/// splines produce from small disks, are rounded in the next shape.
+/// splines produce from small disks, are repaired first.
 template <int dim>
 FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const {
   constexpr double small = 1.8, almost = 2.0 / 3;  // of the final widths
@@ -190,6 +192,15 @@ FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const 
       widths.gap > 0 && !narrowest_places(shape, {.wall = 0, .gap = small * widths.gap}).empty();
   const FeatureSize needed{.wall = widths.wall, .gap = widths.gap, .radius = almost * widths.radius};
   return has_small_holes && has_widths(shape, needed) ? FinalWidths::kept : FinalWidths::not_yet;
+}
+
+/// Whether a search that keeps the final widths begins at a shape that does not have them: every shape after
+/// it would have to pay for them.
+template <int dim>
+bool ShapeOptimizer<dim>::begins_with_sharp_corners(const OptimizationState<dim>& state) const {
+  constexpr double enough = 0.99;  // of the radius: repaired shapes have it up to a thousandth
+  return state.final_widths == FinalWidths::kept && state.history.size() == 1 &&
+         !has_widths(state.shape, {.radius = enough * options_.final_widths.radius});
 }
 
 template <int dim>

@@ -107,6 +107,7 @@ class ShapeOptimizer {
   enum class Repair { nothing, done, interrupted };
   Repair repair_widths(OptimizationState<dim>& state, const Observer& observer) const;
   FinalWidths first_widths(const LevelSet<dim>& shape) const;
+  bool begins_with_sharp_corners(const OptimizationState<dim>& state) const;
   bool has_widths(const LevelSet<dim>& shape, const FeatureSize& widths) const;
   OptimizationState<dim> restarted(OptimizationState<dim> state, const Trial<dim>& trial) const;
   std::optional<StopReason> descend(OptimizationState<dim>& state, const Observer& observer,
