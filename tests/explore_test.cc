@@ -183,6 +183,18 @@ TEST(Costs, AreThoseOfTheLargestDesignAndTheMeanTime) {
   EXPECT_FALSE(why_no_finalists({{"001", "", small, {}}, other}));
 }
 
+/// Each quantity has the word of designs and the name of case files.
+TEST(RankedQuantities, AreFoundByTheirNamesInCaseFiles) {
+  for (const auto& [word, name] :
+       {std::pair("strain", "largest_strain"), std::pair("peak_stress", "peak_von_mises")}) {
+    const RankedQuantity* found = find_quantity(name);
+    ASSERT_TRUE(found) << name;
+    EXPECT_EQ(found, find_quantity(word));
+    EXPECT_EQ(found->word, word);
+  }
+  EXPECT_FALSE(find_quantity("largest_stress"));
+}
+
 TEST(RankedQuantities, HaveTheUnitsOfTheDimension) {
   Case c = case_of(usual_wheel);
   const auto energy = [&] {

@@ -32,11 +32,11 @@ KEYS = {
 }
 
 
-def level_set(shape, case):
-    """The level set of a shape at points of GetFEM's mesh."""
+def level_set(shape, case, cells):
+    """The level set of a shape at points of GetFEM's mesh with so many radial and angular cells."""
     values, sectors = shape.values, case["wheel.sectors"]
-    radial_step = (case["wheel.outer_radius"] - case["wheel.inner_radius"]) / (2 * RADIAL_CELLS)
-    n_azimuths = 2 * ANGULAR_CELLS
+    radial_step = (case["wheel.outer_radius"] - case["wheel.inner_radius"]) / (2 * cells[0])
+    n_azimuths = 2 * cells[1]
     of_sector = n_azimuths // sectors
 
     def at(points):
@@ -51,15 +51,14 @@ class Spokes(soft_wheel.SoftWheel):
     """At a held travel of the rim."""
 
     def forces(self, column, travels):
-        """The force on the ground at each travel [N/m], each solved from the one before."""
+        """The force on the ground at each travel [N/m], each solved from the two before along a straight line."""
         ground = self.ground_at(column, self.angular_cells // 8)
-        x = np.zeros(self.space.nbdof() + 1)
-        result = []
+        x = last = np.zeros(self.space.nbdof() + 1)
         for travel in travels:
-            x[-1] = travel
-            x = self._at_held_travel(x, ground)
-            result.append(-self._residual(x, ground, 0.0)[-1])
-        return result
+            start = x + (x - last) * ((travel - x[-1]) / (x[-1] - last[-1]) if x[-1] > last[-1] else 0.0)
+            start[-1] = travel
+            last, x = x, self._at_held_travel(start, ground)
+            yield -self._residual(x, ground, 0.0)[-1]
 
     def _at_held_travel(self, x, ground):
         free = np.arange(len(x) - 1)
@@ -86,7 +85,7 @@ def main():
     travels = np.linspace(float(first), float(last), int(number))
     case = ww.Case.preset("soft-spokes").replace(KEYS)
     wheel.INNER_RADIUS, wheel.OUTER_RADIUS = case["wheel.inner_radius"], case["wheel.outer_radius"]
-    wheel.holes = level_set(ww.Study(case).shape, case)
+    wheel.holes = level_set(ww.Study(case).shape, case, (RADIAL_CELLS, ANGULAR_CELLS))
     spokes = Spokes(RADIAL_CELLS, ANGULAR_CELLS, case["material.youngs_modulus"], KEYS["material.poissons_ratio"])
     print("| travel [mm] | force by GetFEM [N/m] | difference of wheelwright |\n|---|---|---|")
     for travel, force in zip(travels, spokes.forces(0, travels)):

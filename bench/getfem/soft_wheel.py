@@ -69,13 +69,17 @@ class SoftWheel(wheel.Wheel):
 
     def _assemble(self):
         """The ghost penalty, which does not depend on the displacement."""
-        jump = "((Grad_{0} - Interpolate(Grad_{0},neighbor_element))*Normal)"
         self.ghost = gf.asm_generic(
-            self.faces, 2,
-            f"{0.25 * wheel.GHOST * self.modulus!r}*(h + Interpolate(h,neighbor_element))"
-            f"*{jump.format('u')}.{jump.format('Test_u')}",
-            wheel.GHOST_FACES, "u", 1, self.space, np.zeros(self.space.nbdof()), "alpha", 1, np.zeros(1),
+            self.faces, 2, self._ghost_form(), wheel.GHOST_FACES,
+            "u", 1, self.space, np.zeros(self.space.nbdof()), "alpha", 1, np.zeros(1),
             "h", 0, self.cellwise, self.diameter, *self.data,
+        )
+
+    def _ghost_form(self):
+        jump = "((Grad_{0} - Interpolate(Grad_{0},neighbor_element))*Normal)"
+        return (
+            f"{0.25 * wheel.GHOST * self.modulus!r}*(h + Interpolate(h,neighbor_element))"
+            f"*{jump.format('u')}.{jump.format('Test_u')}"
         )
 
     def _assembled(self, order, x, ground):

@@ -18,7 +18,8 @@ std::vector<RankedQuantity> chosen(const Case& c, const std::vector<std::string>
   const auto known = ranked_quantities(c);
   std::vector<RankedQuantity> result;
   for (const std::string& word : words) {
-    const auto found = std::ranges::find(known, word, &RankedQuantity::word);
+    const auto found =
+        std::ranges::find_if(known, [&](const auto& quantity) { return quantity.is_called(word); });
     if (found == known.end()) {
       std::string text;
       for (const RankedQuantity& quantity : known) text += (text.empty() ? "" : ", ") + quantity.word;

@@ -79,7 +79,7 @@ void PlanOptions::declare(Options& options) {
 Expected<std::vector<RankedQuantity>, std::string> PlanOptions::chosen_quantities(const Case& c) const {
   const std::vector<RankedQuantity> known = ranked_quantities(c);
   const auto of_word = [&](std::string_view word) {
-    return std::ranges::find(known, word, &RankedQuantity::word);
+    return std::ranges::find_if(known, [&](const auto& quantity) { return quantity.is_called(word); });
   };
   std::vector<RankedQuantity> chosen;
   if (quantities) {

@@ -128,11 +128,16 @@ void write_fields(const std::filesystem::path& folder, const RollingReport& repo
 }
 
 std::string check_loads(const std::string& text) {
-  return parse_loads(text) ? "" : "must be loads > 0, as in 1000,2000 or 500:3000:6";
+  return parse_loads(text)
+             ? ""
+             : "must be loads > 0: a list as in 1000,2000, or the first, the last and how many, "
+               "as in 500:3000:6";
 }
 
 std::string check_pass(const std::string& text) {
-  return parse_number_list(text) ? "" : "must be places, as in -0.1,0,0.1 or -0.2:0.2:41";
+  return parse_number_list(text) ? ""
+                                 : "must be places: a list as in -0.1,0,0.1, or the first, the last and how "
+                                   "many, as in -0.2:0.2:41";
 }
 
 /// "0.5%" or "0.005", between 0 and 1.

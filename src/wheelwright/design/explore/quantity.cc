@@ -11,6 +11,7 @@ namespace wheelwright {
 RankedQuantity ranked(const Quantity& quantity, int dimension) {
   const bool is_fine = quantity->is_of_evenness && kind(quantity) == UnitKind::length;
   return {.word = of_part(quantity->ranked_as.empty() ? quantity->name : quantity->ranked_as, quantity->part),
+          .name = of_part(quantity->name, quantity->part),
           .label = label(quantity),
           .shown = is_fine ? micrometres : shown_unit(kind(quantity), dimension),
           .key = number_key(quantity, dimension),
@@ -53,14 +54,14 @@ std::vector<RankedQuantity> ranked_quantities(const Case& c) {
 
 std::vector<Need> unmet_needs_of_ranked(const Case& c, std::string_view word) {
   for (const char* name : names_of_ranked)
-    if (ranked(built_in(name), c.wheel.dimension).word == word)
+    if (ranked(built_in(name), c.wheel.dimension).is_called(word))
       return unmet_needs_of_materials(c, built_in(name));
   return {};
 }
 
 const RankedQuantity* find_quantity(std::string_view word) {
   const auto& all = ranked_quantities();
-  const auto found = std::ranges::find(all, word, &RankedQuantity::word);
+  const auto found = std::ranges::find_if(all, [&](const auto& known) { return known.is_called(word); });
   return found == all.end() ? nullptr : &*found;
 }
 
