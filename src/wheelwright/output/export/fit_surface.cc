@@ -18,24 +18,31 @@ std::string place(const Vec<3>& polar) {
   return fmt::format("{}, z = {:.1f} mm", place_text<3>(polar), polar[2] * mm);
 }
 
+/// The subject of a refusal.
+std::string division(const FittedSurface& surface) {
+  return fmt::format("with {0} x {0} x {0} triangulated cubes per cell the surface", surface.parts);
+}
+
 }  // namespace
 
 Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int map_degree,
                                                     double tolerance) {
+  const auto domain = cut_domain(psi, gauss_points);
+  if (!domain) return SurfaceRefusal{domain.failure().detail};
+  const double volume = psi.lattice.grid().n_sectors * material_measure(*domain, map_degree);
   FittedSurface fitted{};
-  for (const int parts : {1, 2, 3, 4, 6, 8}) {
+  for (const int parts : divisions_of_cell) {
     fitted.parts = parts;
     fitted.surface = material_surface(psi, parts, map_degree);
     const SurfaceDeviation found = deviation(fitted.surface, psi, map_degree);
     fitted.deviation = found.distance;
     fitted.place = found.place;
-    if (fitted.deviation <= tolerance) break;
+    fitted.volume_error = enclosed_volume(fitted.surface) / volume - 1;
+    if (fitted.deviation <= tolerance && std::abs(fitted.volume_error) < max_volume_error) break;
   }
   if (fitted.deviation > tolerance)
-    return SurfaceRefusal{
-        fmt::format("with {} x {} x {} triangulated cubes per cell the surface still deviates by {:.3g} mm "
-                    "at {}; increase --tolerance",
-                    fitted.parts, fitted.parts, fitted.parts, fitted.deviation * mm, place(fitted.place))};
+    return SurfaceRefusal{fmt::format("{} still deviates by {:.3g} mm at {}; increase --tolerance",
+                                      division(fitted), fitted.deviation * mm, place(fitted.place))};
   const auto report = check_solid(solid_mesh(fitted.surface));
   if (!report) {
     Vec<3> at = report.failure().place;
@@ -43,14 +50,11 @@ Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int 
     return SurfaceRefusal{fmt::format("{}: {}", place(polar<3>(at)), report.failure().what)};
   }
   fitted.report = *report;
-  const auto domain = cut_domain(psi, gauss_points);
-  if (!domain) return SurfaceRefusal{domain.failure().detail};
-  const double volume = psi.lattice.grid().n_sectors * material_measure(*domain, map_degree);
   fitted.volume_error = report->volume / (volume * mm * mm * mm) - 1;
   if (!(std::abs(fitted.volume_error) < max_volume_error))
-    return SurfaceRefusal{fmt::format(
-        "the volume of the surface differs by {:.3g} % from the level set's; decrease --tolerance",
-        100 * fitted.volume_error)};
+    return SurfaceRefusal{
+        fmt::format("{} still has a volume that differs by {:.3g} % from the level set's; use a finer grid",
+                    division(fitted), 100 * fitted.volume_error)};
   return fitted;
 }
 

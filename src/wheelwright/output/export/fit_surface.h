@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "wheelwright/base/expected.h"
@@ -23,10 +24,13 @@ struct SurfaceRefusal {
   std::string what;
 };
 
+/// Into how many cubes along each axis a cell can be divided for a surface.
+inline constexpr std::array divisions_of_cell{1, 2, 3, 4, 6, 8};
+
 /// The surface of a shape with the fewest cubes per cell, at most 8 along each axis, that keep the surface of
-/// the holes within `tolerance` [m] of {psi = 0}, on isoparametric cells of degree `map_degree`. Refused if
-/// no number suffices, if the surface does not bound a solid, if its volume differs from the level set's by
-/// more than 0.1 %, or if there is no material.
+/// the holes within `tolerance` [m] of {psi = 0}, on isoparametric cells of degree `map_degree`, and its
+/// volume within 0.1 % of the level set's, also where rim and tread are curved and there are no holes.
+/// Refused if no number suffices, if the surface does not bound a solid, or if there is no material.
 Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int map_degree, double tolerance);
 
 /// As readable lines.

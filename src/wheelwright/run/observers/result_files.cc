@@ -17,6 +17,7 @@
 #include "wheelwright/output/report/svg.h"
 #include "wheelwright/output/report/temperature_picture.h"
 #include "wheelwright/output/report/wheel_pictures.h"
+#include "wheelwright/output/report/workshop_surface.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/results/given_wheel.h"
 #include "wheelwright/run/results/run_title.h"
@@ -33,13 +34,13 @@ WheelState<dim> wheel_state(const RunView<dim>& run, const std::string& heading,
           volume_fraction(shape.lattice.grid(), measure)};
 }
 
-void write_for_workshop(const RunView<2>& run, const std::vector<Contour>& contours) {
+void write_for_workshop(const RunView<2>& run, const LevelSet<2>&, const std::vector<Contour>& contours) {
   write_atomically(run.folder / "shape.svg",
                    shape_svg(run.study.grid(), contours, run_title(run.study.source)));
 }
 
-void write_for_workshop(const RunView<3>& run, const SurfaceMesh& surface) {
-  const SolidMesh solid = solid_mesh(surface);
+void write_for_workshop(const RunView<3>& run, const LevelSet<3>& shape, const SurfaceMesh& of_pictures) {
+  const SolidMesh solid = solid_mesh(workshop_surface(of_pictures, shape, run.study.model().degree));
   if (const auto checked = check_solid(solid); !checked)
     throw std::logic_error("shape.stl: " + checked.failure().what);
   write_atomically(run.folder / "shape.stl",
@@ -56,7 +57,7 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                   material_measure(given));
   const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
                                  last.evaluation.function("objective").value, last.measure);
-  write_for_workshop(run, after.boundary);
+  write_for_workshop(run, last.shape, after.boundary);
   const Quantity minimized = minimized_quantity(run.study.source);
   const std::string load = load_text(run.study.model()), sum = sum_over_load_cases(run.study.source);
   const std::string caption = !sum.empty()              ? sum

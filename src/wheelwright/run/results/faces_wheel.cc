@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
+#include "wheelwright/output/export/fit_surface.h"
 #include "wheelwright/shape/geometry/place.h"
 #include "wheelwright/shape/surface/check_surface.h"
 #include "wheelwright/shape/surface/simplified_surface.h"
@@ -26,12 +30,14 @@ struct Faces {
   std::string why_facets;
 };
 
-/// The largest distance of facets from {psi = 0}, at the points that divide their sides into equal parts.
+/// The largest distance of facets from {psi = 0}, at the points that divide their sides into equal parts. All
+/// sectors are alike, and their facets follow each other.
 SurfaceDeviation deviation(const FacetedSolid& solid, const LevelSet<3>& psi) {
   constexpr int parts = 8;
   const ZeroSurface zero(psi);
   SurfaceDeviation largest{0, {}};
-  for (const auto& [corners, shell] : solid.triangles) {
+  const std::size_t per_sector = solid.triangles.size() / psi.lattice.grid().n_sectors;
+  for (const auto& [corners, shell] : std::span(solid.triangles).first(per_sector)) {
     const Vec<3>&a = solid.points[corners[0]], &b = solid.points[corners[1]], &c = solid.points[corners[2]];
     for (int i = 0; i <= parts; ++i)
       for (int j = 0; i + j <= parts; ++j) {
@@ -71,40 +77,69 @@ Expected<SurfaceMesh, FacesFaults> checked_and_simplified(const SurfaceMesh& sur
   return mesh;
 }
 
-/// Facets that stay within the tolerance everywhere, from those simplified first.
-Expected<Faces, FacesFaults> facets_within(double tolerance, const SurfaceMesh& surface,
-                                           const LevelSet<3>& psi, FacetedSolid solid, double share,
-                                           std::string why_facets) {
-  constexpr double smallest_share = 0.1;
-  for (;;) {
+/// The surface on which faces are made, with this many cubes per cell and axis. Its vertices are where polar
+/// coordinates put them, on circles around the axle, instead of on the sides of isoparametric cells, which at
+/// degree 1 are chords.
+SurfaceMesh surface_for_faces(const LevelSet<3>& psi, int parts) {
+  constexpr int any_degree = 1;
+  SurfaceMesh mesh = material_surface(psi, parts, any_degree);
+  const PolarGrid<3>& grid = psi.lattice.grid();
+  const int n = mesh.sector_points();
+  for (int v = 0; v < n; ++v) {
+    const CellPoint& at = mesh.places[v];
+    const Vec<3> x = cartesian<3>(grid.polar_point(at.cell, at.xi));
+    for (int s = 0; s < mesh.n_sectors; ++s)
+      mesh.points[std::size_t(s) * n + v] = rotated<3>(x, s * grid.sector_angle());
+  }
+  return mesh;
+}
+
+/// Of the tolerance, for simplified() at the points of triangles where it looks; smaller ones follow if that
+/// is not enough between these points.
+constexpr std::array shares{0.8, 0.4, 0.2, 0.1};
+
+/// Facets from a surface by fewer and fewer triangles until they stay within the tolerance everywhere, or are
+/// those of the surface itself. `fewer` is the first of these surfaces.
+Expected<Faces, FacesFaults> facets_from(const SurfaceMesh& surface, SurfaceMesh fewer,
+                                         const LevelSet<3>& psi, double tolerance) {
+  for (std::size_t k = 0;; ++k) {
+    FacetedSolid solid = facets_of(fewer, psi);
     const auto found = deviation(solid, psi);
-    if (found.distance <= tolerance) return Faces{std::move(solid), found, std::move(why_facets)};
-    share /= 2;
-    if (share < smallest_share)
+    if (found.distance <= tolerance) return Faces{std::move(solid), found, {}};
+    const bool can_be_nearer =
+        k + 1 < shares.size() && deviation(facets_of(surface, psi), psi).distance <= tolerance;
+    if (!can_be_nearer)
       return FacesFaults{
           {fmt::format("{}: facets deviate by {:.4f} mm from the level set; increase --tolerance",
                        place(found.place), found.distance * millimetres)}};
-    const auto mesh = checked_and_simplified(surface, psi, share * tolerance);
-    if (!mesh) return mesh.failure();
-    solid = facets_of(*mesh, psi);
+    auto next = checked_and_simplified(surface, psi, shares[k + 1] * tolerance);
+    if (!next) return next.failure();
+    fewer = *std::move(next);
   }
 }
 
-Expected<Faces, FacesFaults> faces_of(const SurfaceMesh& surface, const LevelSet<3>& psi, FaceKind kind,
-                                      double tolerance) {
-  constexpr double share = 0.8;  // of the tolerance, at the points of triangles where simplified() looks
-  const auto mesh = checked_and_simplified(surface, psi, share * tolerance);
-  if (!mesh) return mesh.failure();
+/// Smooth faces if these are wanted and possible, otherwise facets on the coarsest surface, from `parts`
+/// cubes per cell and axis on, that stays within the tolerance.
+Expected<Faces, FacesFaults> faces_of(const LevelSet<3>& psi, int parts, FaceKind kind, double tolerance) {
   std::string why_facets = "smooth ones do not make a valid solid";
-  if (kind != FaceKind::facets) {
-    auto lofted = cad::lofted_solid(*mesh, psi, tolerance);
-    if (lofted) {
-      const auto found = deviation(*lofted, psi);
-      return Faces{*std::move(lofted), found, {}};
+  bool can_be_smooth = kind == FaceKind::smooth;
+  for (auto division = std::ranges::find(divisions_of_cell, parts);;) {
+    const SurfaceMesh surface = surface_for_faces(psi, *division);
+    auto fewer = checked_and_simplified(surface, psi, shares[0] * tolerance);
+    if (!fewer) return fewer.failure();
+    if (can_be_smooth) {
+      auto lofted = cad::lofted_solid(*fewer, psi, tolerance);
+      if (lofted) {
+        const auto found = deviation(*lofted, psi);
+        return Faces{*std::move(lofted), found, {}};
+      }
+      why_facets = lofted.failure();
+      can_be_smooth = false;
     }
-    why_facets = lofted.failure();
+    auto faces = facets_from(surface, *std::move(fewer), psi, tolerance);
+    if (faces) faces->why_facets = why_facets;
+    if (faces || ++division == divisions_of_cell.end()) return faces;
   }
-  return facets_within(tolerance, surface, psi, facets_of(*mesh, psi), share, std::move(why_facets));
 }
 
 std::string count(const FacetedSolid& solid) {
@@ -122,10 +157,10 @@ std::string count(const cad::LoftedSolid& solid) {
 
 Expected<FittedFacesWheel, FacesFaults> fitted_faces_wheel(const SurfaceModel& wheel, FaceKind kind,
                                                            double tolerance) {
-  auto whole = faces_of(wheel.surface, wheel.shape, kind, tolerance);
+  auto whole = faces_of(wheel.shape, wheel.parts, kind, tolerance);
   if (!whole) return whole.failure();
   const double volume = std::visit([](const auto& solid) { return enclosed_volume(solid); }, whole->solid);
-  const double fine = enclosed_volume(facets_of(wheel.surface, wheel.shape));
+  const double fine = enclosed_volume(facets_of(surface_for_faces(wheel.shape, wheel.parts), wheel.shape));
   FittedFacesWheel fitted{{wheel.title, wheel.program, std::move(whole->solid), {}},
                           std::move(whole->why_facets),
                           volume,
@@ -133,7 +168,7 @@ Expected<FittedFacesWheel, FacesFaults> fitted_faces_wheel(const SurfaceModel& w
                           whole->deviation.distance,
                           whole->deviation.place};
   for (const SurfaceLayer& layer : wheel.layers) {
-    auto part = faces_of(layer.surface, layer.shape, kind, tolerance);
+    auto part = faces_of(layer.shape, layer.parts, kind, tolerance);
     if (!part) return part.failure();
     fitted.model.layers.push_back({layer.name, std::move(part->solid)});
   }
