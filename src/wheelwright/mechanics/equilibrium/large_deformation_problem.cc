@@ -233,11 +233,15 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
   const DeformableRing<dim>& ring = *solution.ring;
   const MaterialEdges<dim> edges(ring.psi, ring.forms.space().lattice());
   LinearizedEquilibrium<dim> last{solution.equilibria[position], nullptr};
-  std::optional<double> too_large;  // a load that failed
+  struct FailedLoad {
+    double load;
+    FailureReason reason;
+  };
+  std::optional<FailedLoad> too_large;
   std::vector<Expected<LoadedEquilibrium<dim>, EquilibriumFailure>> result;
   for (size_t k = 0; k < models.size(); ++k) {
-    if (too_large && !models[k].travel && models[k].load > *too_large) {
-      result.emplace_back(EquilibriumFailure{{FailureReason::overload, "a smaller load fails already"}});
+    if (too_large && !models[k].travel && models[k].load > too_large->load) {
+      result.emplace_back(EquilibriumFailure{{too_large->reason, "a smaller load fails already"}});
       continue;
     }
     const int next_half_zone = k + 1 < models.size() ? solver(models[k + 1]).first_half_zone() : 0;
@@ -247,7 +251,7 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
       if (auto failure = overlap(ring, edges, point->solution)) point = *std::move(failure);
     if (!point) {
       if (!models[k].travel && point.failure().reason != FailureReason::interrupted)
-        too_large = models[k].load;
+        too_large = FailedLoad{models[k].load, point.failure().reason};
       result.emplace_back(point.failure());
       continue;
     }

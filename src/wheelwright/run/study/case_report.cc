@@ -72,6 +72,21 @@ std::string layers_report(const Case& c) {
   return report;
 }
 
+/// What most results depend on, so that defaults are seen.
+std::string wheel_report(const Case& c) {
+  const std::string radii =
+      fmt::format("radius {:.6g} to {:.6g} mm, width {:.6g} mm", c.wheel.inner_radius * 1e3,
+                  c.wheel.outer_radius * 1e3, c.wheel.width * 1e3);
+  if (!c.layers.empty() || tread_material(c).orthotropic()) return line("wheel", radii);
+  const std::string plane = c.wheel.dimension == 3              ? "three dimensions"
+                            : c.material.plane == Plane::strain ? "plane strain"
+                                                                : "plane stress";
+  return line("wheel", radii) +
+         line("material",
+              fmt::format("E {:.6g} MPa, nu {:.6g}, {}, {} strains", c.material.youngs_modulus / 1e6,
+                          c.material.poissons_ratio, plane, has_large_strains(c) ? "large" : "small"));
+}
+
 std::string material_report(const Case& c) {
   if (!c.layers.empty() || tread_material(c).orthotropic())
     return layers_report(c) +
@@ -389,9 +404,9 @@ std::string load_case_text(const CaseLoad& load_case) {
 
 std::string derived_report(const Case& c) {
   if (c.load.cases.empty())
-    return load_report(c) + material_report(c) + contact_report(c) + losses_report(c) + size_report(c) +
-           bounds_report(c);
-  std::string report;
+    return wheel_report(c) + load_report(c) + material_report(c) + contact_report(c) + losses_report(c) +
+           size_report(c) + bounds_report(c);
+  std::string report = wheel_report(c);
   Case finest = c;
   finest.grid.tread_levels = tread_levels(c);
   for (std::size_t k = 0; k < c.load.cases.size(); ++k) {

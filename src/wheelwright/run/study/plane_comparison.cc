@@ -106,7 +106,9 @@ std::string comparison_text(const Case& c, const PlaneComparison& comparison) {
   return fmt::format("  {:<22}{}; plane strain {}, plane stress {}\n  {:<22}{}\n", "stiffness in 3D", solid,
                      difference(comparison.error(Plane::strain)), difference(comparison.error(Plane::stress)),
                      "recommended",
-                     best ? fmt::format("material.plane = \"{}\"", word(*best)) : "wheel.dimension = 3");
+                     best                   ? fmt::format("material.plane = \"{}\"", word(*best))
+                     : has_large_strains(c) ? "neither; large deformation is computed in 2D only"
+                                            : "wheel.dimension = 3");
 }
 
 std::optional<std::string> plane_warning(const Case& c, const PlaneComparison& comparison) {
@@ -115,10 +117,11 @@ std::optional<std::string> plane_warning(const Case& c, const PlaneComparison& c
   const auto better = comparison.recommended();
   const Plane other = c.material.plane == Plane::strain ? Plane::stress : Plane::strain;
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
-  const std::string remedy = better ? fmt::format("with material.plane = \"{}\" it is {}", word(*better),
-                                                  difference(comparison.error(*better)))
-                                    : fmt::format("plane {} is {}; use wheel.dimension = 3", word(other),
-                                                  difference(comparison.error(other)));
+  const std::string remedy =
+      better ? fmt::format("with material.plane = \"{}\" it is {}", word(*better),
+                           difference(comparison.error(*better)))
+             : fmt::format("plane {} is {}{}", word(other), difference(comparison.error(other)),
+                           has_large_strains(c) ? "" : "; use wheel.dimension = 3");
   return fmt::format(
       "plane {}: the wheel is {} than in 3D on {}, because its width is {:.2g} times the ring's thickness; "
       "{}",
