@@ -183,7 +183,8 @@ def volume_of_closed_surface(path):
     """[m^3]; nothing if an edge does not belong to two triangles of opposite direction."""
     triangle = numpy.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     corners = numpy.fromfile(path, triangle, offset=84)["corners"]
-    bits = numpy.ascontiguousarray(corners + numpy.float32(0)).view("<u4").reshape(-1, 3).astype(numpy.uint64)  # -0 becomes 0
+    without_signs_of_zero = numpy.ascontiguousarray(corners + numpy.float32(0))
+    bits = without_signs_of_zero.view("<u4").reshape(-1, 3).astype(numpy.uint64)
     points = numbered(numbered(bits[:, 0], bits[:, 1]), bits[:, 2]).reshape(-1, 3)
     begins, ends = points.ravel(), numpy.roll(points, -1, axis=1).ravel()
     count = points.max() + numpy.uint64(1)

@@ -65,8 +65,8 @@ def check_section(shape, file):
     loops = [Part.Wire(loop) for loop in Part.sortEdges(edges)]
     of_solid, of_file = area(wires), area(loops)
     far, where = max(farthest([edge for wire in wires for edge in wire.Edges], edges), farthest(edges, wires))
-    print(f"\nFreeCAD: z = {z:g} mm, {len(wires)} and {len(loops)} loops, {of_solid:.1f} and {of_file:.1f} mm^2, at most {far:.4f} mm "
-          f"apart, at x = {where[0]} mm, y = {where[1]} mm")
+    print(f"\nFreeCAD: z = {z:g} mm, {len(wires)} and {len(loops)} loops, {of_solid:.1f} and {of_file:.1f} mm^2, "
+          f"at most {far:.4f} mm apart, at x = {where[0]} mm, y = {where[1]} mm")
     for edge in edges:
         edge.translate(FreeCAD.Vector(0, 0, z - at))
     return edges
@@ -79,8 +79,9 @@ def main():
     solid.ViewObject.ShapeColor = (0.23, 0.43, 0.65)
     document.recompute()
     shape = solid.Shape
-    print(f"\nFreeCAD: step, {len(shape.Solids)} solid, valid {shape.isValid()}, closed {all(s.isClosed() for s in shape.Shells)}, "
-          f"volume {shape.Volume:.0f} mm^3, faces:", kinds(face.Surface for face in shape.Faces))
+    print(f"\nFreeCAD: step, {len(shape.Solids)} solid, valid {shape.isValid()}, "
+          f"closed {all(shell.isClosed() for shell in shape.Shells)}, volume {shape.Volume:.0f} mm^3, faces:",
+          kinds(face.Surface for face in shape.Faces))
     picture("solid", "viewIsometric")
     edges = []
     for file in sorted(glob.glob(wheel + "-z*.dxf"), key=lambda file: float(file[len(wheel) + 2:-4])):
