@@ -174,14 +174,20 @@ def run(*arguments):
                           env=support.one_thread_each())
 
 
+def numbered(first, second):
+    """The same number for equal pairs: numpy sorts whole numbers faster than rows."""
+    return numpy.unique(first << numpy.uint64(32) | second, return_inverse=True)[1].astype(numpy.uint64)
+
+
 def volume_of_closed_surface(path):
     """[m^3]; nothing if an edge does not belong to two triangles of opposite direction."""
     triangle = numpy.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     corners = numpy.fromfile(path, triangle, offset=84)["corners"]
-    bytes_of_points = numpy.ascontiguousarray(corners + numpy.float32(0)).view("V12").ravel()  # -0 becomes 0
-    points = numpy.unique(bytes_of_points, return_inverse=True)[1].reshape(-1, 3)
+    without_signs_of_zero = numpy.ascontiguousarray(corners + numpy.float32(0))
+    bits = without_signs_of_zero.view("<u4").reshape(-1, 3).astype(numpy.uint64)
+    points = numbered(numbered(bits[:, 0], bits[:, 1]), bits[:, 2]).reshape(-1, 3)
     begins, ends = points.ravel(), numpy.roll(points, -1, axis=1).ravel()
-    count = points.max() + 1
+    count = points.max() + numpy.uint64(1)
     edges, reverse = numpy.sort(begins * count + ends), numpy.sort(ends * count + begins)
     if (edges[1:] == edges[:-1]).any() or (edges != reverse).any():
         return None
