@@ -148,18 +148,6 @@ TEST(SoftWheels, TheLargestLoadIsFoundByTheTravel) {
   EXPECT_LT(force_at(1.1 * travel), largest);
 }
 
-/// A load so huge that the undeformed wheel has no contact under it fails by the wheel's largest load too.
-TEST(SoftWheels, AHugeLoadFailsByTheLargestLoad) {
-  Case c = coarse_soft_spokes();
-  const LevelSet<2> shape = initial_shape<2>(c);
-  for (const double load : {2e4, 6e6}) {
-    c.load.force = load;
-    const auto failed = over_a_spoke(*LargeDeformationProblem<2>::create(rolling_model<2>(c)), shape);
-    ASSERT_FALSE(failed) << load;
-    EXPECT_TRUE(is_physics(failed.failure().reason)) << load << ": " << failed.failure().detail;
-  }
-}
-
 /// A curve of travels has the forces of wheels solved from rest up to the travel at which edges of
 /// neighbouring spokes cross, and says so beyond; loads beyond one that fails are not sought.
 TEST(SoftWheels, ACurveEndsWhereEdgesCross) {

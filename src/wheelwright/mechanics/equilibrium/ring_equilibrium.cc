@@ -201,19 +201,6 @@ auto EquilibriumSolver<dim>::solve_under(const RimControl& rim, GroundPosition g
 }
 
 template <int dim>
-Expected<double, ContactFailure> EquilibriumSolver<dim>::linear_travel(
-    const RimControl& rim, const RingLinearization<dim>& undeformed, const Interrupt& interrupt) const {
-  constexpr double smallest_part = 1e-6;
-  const std::vector<double> zero(problem_.forms.space().n_dofs(), 0.0);
-  for (double part = 1;; part /= 10) {
-    const auto linear = correction(undeformed, undeformed.forces(), zero, part_of(rim, part), {}, interrupt);
-    if (linear) return linear->state.rim.towards_ground / part;
-    if (linear.failure().reason != FailureReason::newton_stalled || part < smallest_part)
-      return linear.failure();
-  }
-}
-
-template <int dim>
 auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<EquilibriumStart<dim>>& start,
                                    const Interrupt& interrupt) const -> Result {
   const RimControl rim = rim_control(model_);
@@ -229,9 +216,9 @@ auto EquilibriumSolver<dim>::solve(GroundPosition ground, const std::optional<Eq
   if (!model_.travel) {
     const auto undeformed = linearize(from.v, ground, half_zone(0));
     if (!undeformed) return EquilibriumFailure{undeformed.failure()};
-    const auto linear = linear_travel(rim, **undeformed, interrupt);
+    const auto linear = correction(**undeformed, (**undeformed).forces(), from.v, rim, {}, interrupt);
     if (!linear) return EquilibriumFailure{linear.failure()};
-    travel = *linear;
+    travel = linear->state.rim.towards_ground;
   }
   const double first = std::min(1.0, largest_step * thickness / std::max(travel, 1e-300));
   double reached = 0, length = first;

@@ -101,11 +101,6 @@ class EquilibriumSolver {
                                                   const std::vector<double>& v, const RimControl& rim,
                                                   const std::optional<ContactState<dim>>& known,
                                                   const Interrupt& interrupt) const;
-  /// The travel under the load by the tangent of the undeformed wheel: if its contact cannot be solved, that
-  /// of a part of the load by the part.
-  Expected<double, ContactFailure> linear_travel(const RimControl& rim,
-                                                 const RingLinearization<dim>& undeformed,
-                                                 const Interrupt& interrupt) const;
   /// The solution if it is stable, or the failure with its mode. `near`: a linearization next to it.
   Result checked(RingEquilibrium<dim> solution, const RingLinearization<dim>& near) const;
   /// Returns the failure with its mode if only `unstable` is known of it; or, if the material softens in
