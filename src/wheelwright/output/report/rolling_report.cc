@@ -315,6 +315,17 @@ std::string variation_lines(const RollingReport& report) {
   return table;
 }
 
+/// Between which of the loads the curve ends; empty if all or none were computed.
+std::string largest_load_line(const RollingReport& report) {
+  const auto failed = std::ranges::find_if(report.under_loads, [](const auto& state) { return !state; });
+  if (failed == report.under_loads.end() || failed == report.under_loads.begin()) return "";
+  const auto k = static_cast<size_t>(failed - report.under_loads.begin());
+  const double carried = report.loads[k - 1] * forces(report), too_large = report.loads[k] * forces(report);
+  return fmt::format(
+      "the curve ends between {:.6g} N and {:.6g} N; --loads {:.6g}:{:.6g}:5 narrows it down\n", carried,
+      too_large, carried, too_large);
+}
+
 std::string missing_lines(const RollingReport& report) {
   std::string lines;
   if (report.finer && !*report.finer)
@@ -335,7 +346,7 @@ std::string missing_lines(const RollingReport& report) {
     if (!report.under_loads[k])
       lines += fmt::format("not computed: load {:.6g} N: {}\n", report.loads[k] * forces(report),
                            to_string(report.under_loads[k].failure()));
-  return lines;
+  return lines + largest_load_line(report);
 }
 
 double largest_stress(const RollingAnalysis& analysis) { return std::ranges::max(analysis.peak_von_mises); }
