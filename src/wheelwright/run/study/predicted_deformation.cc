@@ -58,6 +58,12 @@ std::string warning(const PredictedDeformation& predicted) {
                      predicted.grid, text);
 }
 
+/// Spokes of a few cells that bend and buckle are too stiff on a coarse grid.
+bool is_rough(const DeformationSize& size) {
+  constexpr double large_travel = 0.15, large_strain = 0.4;
+  return size.travel > large_travel || size.strain > large_strain;
+}
+
 }  // namespace
 
 Case on_predicting_grid(Case c) {
@@ -88,9 +94,9 @@ std::string prediction_note(std::span<const PredictedDeformation> predicted) {
   for (const auto& [load_case, grid, size] : predicted)
     if (size)
       note += fmt::format(
-          "  {:<22}{}travel up to {:.2g} % of the ring's thickness, strains up to {:.2g} %, on {}\n",
+          "  {:<22}{}travel up to {:.2g} % of the ring's thickness, strains up to {:.2g} %, on {}{}\n",
           "initial shape", load_case.empty() ? "" : load_case + ": ", 100 * size->travel, 100 * size->strain,
-          grid);
+          grid, is_rough(*size) ? "; on a finer grid they may be larger by a third or more" : "");
   return note;
 }
 
