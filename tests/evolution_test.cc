@@ -381,7 +381,7 @@ TEST(Smoothing, KeepsTheMeanAndDampsShortWaves) {
 // --- measure and bands ---
 
 ShapeOfShift<2> shifts_of(const LevelSet<2>& psi, const ProtectedBands<2>& bands) {
-  return [&](double shift) { return shifted<2>(psi, bands, shift); };
+  return [&](double shift) { return bands.keep(shifted<2>(psi, bands, shift)); };
 }
 
 TEST(MeasureByShift, ReachesTheTarget) {

@@ -242,14 +242,12 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi
 template <int dim>
 ShapeOfShift<dim> Evolver<dim>::shifted(const LevelSet<dim>& psi) const {
   if (space_ != ShapeSpace::spline)
-    return [&](double shift) { return wheelwright::shifted<dim>(psi, bands_, shift); };
+    return [&](double shift) { return bands_.keep(wheelwright::shifted<dim>(psi, bands_, shift)); };
   const LevelSet<dim> coefficients = spline_coefficients(psi);
   return [this, &psi, coefficients, unmoved = spline_level_set(coefficients)](double shift) {
     if (shift == 0) return psi;
-    LevelSet<dim> moved = coefficients;
-    for (std::size_t node = 0; node < moved.values.size(); ++node)
-      if (!bands_.nodes()[node]) moved.values[node] += shift;
-    LevelSet<dim> result = spline_level_set(bands_.keep_design(std::move(moved)));
+    LevelSet<dim> result =
+        spline_level_set(bands_.keep_design(wheelwright::shifted<dim>(coefficients, bands_, shift)));
     for (std::size_t node = 0; node < result.values.size(); ++node)
       result.values[node] += psi.values[node] - unmoved.values[node];
     return like(psi, std::move(result));

@@ -49,6 +49,14 @@ std::vector<double> bound_of_coefficients(const Lattice<dim>& lattice, const std
   return coefficients.values;
 }
 
+/// The minimum of the values at the nodes and the bound.
+template <int dim>
+LevelSet<dim> clipped(LevelSet<dim> psi, const std::vector<double>& bound) {
+  for (std::size_t node = 0; node < psi.values.size(); ++node)
+    psi.values[node] = std::min(psi.values[node], bound[node]);
+  return psi;
+}
+
 }  // namespace
 
 template <int dim>
@@ -70,7 +78,7 @@ ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, const Bands& ba
                    });
     upper_bound_[node] = distance(place);
   }
-  bound_of_coefficients_ = bound_of_coefficients(lattice, upper_bound_);
+  bound_of_coefficients_ = mould_ ? upper_bound_ : bound_of_coefficients(lattice, upper_bound_);
   if (mould_) moulded_ = std::make_shared<const MouldedShapes<dim>>(lattice, *mould_, upper_bound_);
 }
 
@@ -99,17 +107,13 @@ LevelSet<dim> ProtectedBands<dim>::keep(LevelSet<dim> psi) const {
 
 template <int dim>
 LevelSet<dim> ProtectedBands<dim>::keep_design(LevelSet<dim> coefficients) const {
-  if (moulded_) return moulded_->keep_coefficients(std::move(coefficients));
-  for (std::size_t node = 0; node < coefficients.values.size(); ++node)
-    coefficients.values[node] = std::min(coefficients.values[node], bound_of_coefficients_[node]);
-  return coefficients;
+  return moulded_ ? moulded_->keep_coefficients(std::move(coefficients))
+                  : clipped(std::move(coefficients), bound_of_coefficients_);
 }
 
 template <int dim>
 LevelSet<dim> ProtectedBands<dim>::clip(LevelSet<dim> psi) const {
-  for (std::size_t node = 0; node < psi.values.size(); ++node)
-    psi.values[node] = std::min(psi.values[node], upper_bound_[node]);
-  return psi;
+  return clipped(std::move(psi), upper_bound_);
 }
 
 template <int dim>

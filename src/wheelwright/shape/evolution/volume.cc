@@ -34,7 +34,7 @@ template <int dim>
 LevelSet<dim> shifted(LevelSet<dim> psi, const ProtectedBands<dim>& bands, double shift) {
   for (std::size_t node = 0; node < psi.values.size(); ++node)
     if (!bands.nodes()[node]) psi.values[node] += shift;
-  return bands.keep(std::move(psi));
+  return psi;
 }
 
 template <int dim>

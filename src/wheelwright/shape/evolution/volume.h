@@ -24,7 +24,7 @@ struct MeasuredShape {
 template <int dim>
 Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi, int points);
 
-/// psi + shift [m], with the bands kept. Nodes in the bands keep their values.
+/// psi + shift [m]. Nodes in the bands keep their values.
 template <int dim>
 LevelSet<dim> shifted(LevelSet<dim> psi, const ProtectedBands<dim>& bands, double shift);
 
