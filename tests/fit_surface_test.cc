@@ -62,7 +62,7 @@ TEST(FitSurface, RefusesCellsWhoseParabolasNeedMoreChords) {
   EXPECT_FALSE(fit_surface(ring_without_holes({0.2, 0.34, 0.12, 5, {2, 1, 1}}, 2), 2, any_distance));
 }
 
-/// Of few, long cells: a wall in the middle of the width between a rim and a tread.
+/// The cells are few and long. A wall in the middle of the width connects a rim and a tread.
 LevelSet<3> thin_wall(double thickness) {
   const PolarGrid<3> grid{0.0145, 0.034, 0.0168, 16, {9, 3, 3}};
   LevelSet<3> psi{Lattice<3>(grid, 2), {}};

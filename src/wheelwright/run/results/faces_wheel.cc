@@ -94,8 +94,8 @@ SurfaceMesh surface_for_faces(const LevelSet<3>& psi, int parts) {
   return mesh;
 }
 
-/// Of the tolerance, for simplified() at the points of triangles where it looks; smaller ones follow if that
-/// is not enough between these points.
+/// The shares of the tolerance that simplified() may use at the points of triangles where it looks. The next
+/// one is tried if the facets deviate too much between these points.
 constexpr std::array shares{0.8, 0.4, 0.2, 0.1};
 
 /// Facets from a surface by fewer and fewer triangles until they stay within the tolerance everywhere, or are

@@ -72,7 +72,7 @@ std::string layers_report(const Case& c) {
   return report;
 }
 
-/// What most results depend on, so that defaults are seen.
+/// Shows the wheel and its material, also where they are defaults.
 std::string wheel_report(const Case& c) {
   const std::string radii =
       fmt::format("radius {:.6g} to {:.6g} mm, width {:.6g} mm", c.wheel.inner_radius * 1e3,
