@@ -10,7 +10,9 @@
 namespace wheelwright {
 
 std::string text(const ContactProgress& progress) {
-  return fmt::format("contact: load position {} of {}, {} steps so far", progress.position + 1,
+  const std::string load =
+      progress.n_loads > 1 ? fmt::format("load {} of {}, ", progress.load + 1, progress.n_loads) : "";
+  return fmt::format("contact: {}position {} of {}, {} steps so far", load, progress.position + 1,
                      progress.n_positions, progress.newton_steps);
 }
 

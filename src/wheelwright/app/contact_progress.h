@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// "contact: load position 3 of 8, 120 steps so far".
+/// "contact: position 3 of 8, 120 steps so far", with the load if there are several.
 std::string text(const ContactProgress& progress);
 
 /// For commands that solve one shape: an interrupt that is never requested and prints the progress of the

@@ -11,6 +11,7 @@
 #include "wheelwright/app/guarded.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/process_settings.h"
+#include "wheelwright/base/text.h"
 #include "wheelwright/run/checkpoints/provenance.h"
 
 namespace wheelwright {
@@ -28,12 +29,22 @@ void declare(CLI::App& app, const Commands& commands) {
   }
 }
 
+/// The arguments that no command declares, in the order in which they were given.
+std::string unexpected(const CLI::App& app) {
+  std::string text;
+  for (const std::string& argument : app.remaining(true)) text += (text.empty() ? "" : " ") + argument;
+  return without_control_characters(text);
+}
+
 int parse_and_run(int argc, char** argv) {
   const Commands commands = make_commands();
   CLI::App app("Optimizes the shape of elastic rolling structures");
   declare(app, commands);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    print_err("not expected: {}\nRun with --help for more information.\n", unexpected(app));
+    return exit_usage;
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, messages;
     const bool is_help = app.exit(error, out, messages) == 0;

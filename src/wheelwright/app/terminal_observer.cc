@@ -20,7 +20,8 @@ class TerminalObserver : public Observer<dim> {
   void operator()(const Event<dim>& event, const RunView<dim>& run) override {
     if (const auto* started = std::get_if<RunStarted>(&event)) begin(*started, run);
     if (const auto* advanced = std::get_if<ContactAdvanced>(&event))
-      progress_->show_step(text(advanced->progress), run.elapsed_seconds);
+      progress_->show_step((advanced->for_results ? "results: " : "") + text(advanced->progress),
+                           run.elapsed_seconds);
     if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
       progress_->note((command->was_executed ? "" : "refused: ") + command->text);
     if (const auto* ended = std::get_if<RunEnded<dim>>(&event); ended && is_normal_end(ended->reason))

@@ -7,6 +7,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
 #include "wheelwright/case/quantity_needs.h"
+#include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/single_load.h"
@@ -94,6 +95,20 @@ void check_bounds(const Case& c, std::size_t i, Conflicts& found) {
       refuse({key}, "more than the whole ring", "use a fraction below 1");
 }
 
+/// Bounds of lengths beyond the size of the wheel, which no shape could break or none could keep.
+void check_lengths(const Case& c, std::size_t i, Conflicts& found) {
+  const auto& quantity = c.constraints[i].quantity;
+  if (kind(quantity) != UnitKind::length || quantity == built_in("perimeter")) return;
+  for (const auto& bound : {lower_bound(c, i), upper_bound(c, i)}) {
+    if (!bound || bound->value < c.wheel.outer_radius) continue;
+    found.push_back({{bound->key, key_of(&Wheel::outer_radius)},
+                     "longer than the radius of the wheel",
+                     fmt::format("use less than {:.6g} m", c.wheel.outer_radius) +
+                         if_in_millimetres(bound->value, c.wheel.outer_radius)});
+    return;  // equals is both bounds
+  }
+}
+
 /// Upper bounds of temperatures that no shape can meet: the losses only warm the wheel, and the rim belongs
 /// to it.
 void check_temperature(const Case& c, std::size_t i, Conflicts& found) {
@@ -139,6 +154,7 @@ void constraint_conflicts(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.constraints.size(); ++i) {
     check_quantity(c, i, found);
     check_bounds(c, i, found);
+    check_lengths(c, i, found);
     check_temperature(c, i, found);
   }
   check_bounds_together(c, found);

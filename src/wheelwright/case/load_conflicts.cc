@@ -29,9 +29,6 @@ void check_travel(const SingleLoad& single, Conflicts& found) {
 
 void check_load(const SingleLoad& single, Conflicts& found) {
   const Case& c = single.c;
-  if (!is_overloaded(c)) return;
-  const double half_width = hertz_half_width(c);
-  const double advised = 0.1 * contact_radius(c), factor = advised / half_width;  // strains of 5 %
   if (is_overloaded_in_pascals(c)) {
     const PlacedMaterial tread = placed_materials(c).back();
     found.push_back({{tread.youngs_modulus_key(), single.key(&Load::force)},
@@ -39,6 +36,9 @@ void check_load(const SingleLoad& single, Conflicts& found) {
                      question_of_megapascals(tread.youngs_modulus())});
     return;
   }
+  if (!is_overloaded(c)) return;
+  const double half_width = hertz_half_width(c);
+  const double advised = 0.1 * contact_radius(c), factor = advised / half_width;  // strains of 5 %
   CaseKeys keys{single.key(&Load::force),     key_of(&Material::youngs_modulus), key_of(&Wheel::width),
                 key_of(&Wheel::outer_radius), key_of(&Material::poissons_ratio), key_of(&Material::plane)};
   std::ranges::move(keys_of_moduli(c), std::back_inserter(keys));

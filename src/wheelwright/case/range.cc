@@ -18,4 +18,10 @@ std::string Range::text() const {
                      high_end == End::closed ? "<=" : "<", number_text(high));
 }
 
+std::string Range::advice_at_open_end(double value) const {
+  constexpr double just_below = 0.999;
+  if (value != high || high_end == End::closed) return "";
+  return fmt::format("; use for example {}", number_text(just_below * high));
+}
+
 }  // namespace wheelwright

@@ -15,6 +15,8 @@ struct Range {
   bool contains(double value) const;
   /// E.g. "0 < value <= 20".
   std::string text() const;
+  /// E.g. "; use for example 0.4995" if the value is 0.5, the high end, which does not belong to the range.
+  std::string advice_at_open_end(double value) const;
 };
 
 constexpr Range any_number{-1e9, 1e9};

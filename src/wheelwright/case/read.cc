@@ -166,7 +166,8 @@ std::optional<Complaint> read_number(const toml::node& node, std::string_view un
     const bool may_be_in_mm = unit == "m" && *value > 0 && range.contains(*value / 1000);
     return Complaint{
         Kind::out_of_range, "out of range",
-        fmt::format("{}{}{}", range.text(), unit.empty() ? "" : " ", unit) +
+        fmt::format("{}{}{}{}", range.text(), unit.empty() ? "" : " ", unit,
+                    range.advice_at_open_end(*value)) +
             (may_be_in_mm ? fmt::format("; if that is in mm, write {}", number_text(*value / 1000)) : "")};
   }
   out = *value;
@@ -723,7 +724,7 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
   Case result = read_root(reading, toml.root);
   const std::vector<Diagnostic> in_drawings = load_drawings(reading, result);
   if (!given_path(reading, key_of(&Wheel::sectors)))
-    result.wheel.sectors = sectors_by_drawings(result).value_or(result.wheel.sectors);
+    result.wheel.sectors = sectors_by_shape(result).value_or(result.wheel.sectors);
   const auto is_given = [&](const CaseKey& key) { return given_path(reading, key).has_value(); };
   const GivenCells given_cells{.radial = is_given(key_of(&Grid::radial_cells)),
                                .angular = is_given(key_of(&Grid::angular_cells)),

@@ -68,7 +68,9 @@ std::vector<int> fitting_sectors(const Case& c, const std::vector<DrawnShape>& s
   return divisors(most_common_sectors(c, shapes));
 }
 
-std::optional<int> sectors_by_drawings(const Case& c) {
+std::optional<int> sectors_by_shape(const Case& c) {
+  if (const SavedLevelSet* saved = c.saved_shape.shape.contents.get())
+    return std::visit([](const auto& psi) { return psi.lattice.grid().n_sectors; }, *saved);
   const std::vector<DrawnShape> shapes = drawn_shapes(c);
   if (std::ranges::none_of(shapes, is_drawing)) return {};
   const int most = most_common_sectors(c, shapes);

@@ -27,9 +27,9 @@ int common_count(const Case& c, const std::vector<DrawnShape>& shapes);
 /// fits.
 std::vector<int> fitting_sectors(const Case& c, const std::vector<DrawnShape>& shapes);
 
-/// The largest number of equal sectors of a case with drawings or pictures; nothing if it has none, or if
-/// everything is round.
-std::optional<int> sectors_by_drawings(const Case& c);
+/// The sectors of the saved shape of a case, or the largest number of equal sectors of its drawings and
+/// pictures; nothing if it has none of these, or if everything is round.
+std::optional<int> sectors_by_shape(const Case& c);
 
 /// The accepted difference of a drawing between the sectors of a case, which uses that of the first one [m].
 double accepted_asymmetry(const Case& c, const DrawnShape& shape);

@@ -38,7 +38,7 @@ const Section<Wheel>& wheel_section() {
            .field = IntegerField<Wheel>{&Wheel::sectors, between(1, 10000)},
            .meaning = "N_s: number of equal sectors of the shape; 1 means no cyclic symmetry; in a case with "
                       "drawings or pictures the default is the largest number that fits them and all "
-                      "counts"},
+                      "counts, and with the shape of another run that of the run"},
           {.name = "side_faces",
            .field = choice<&Wheel::side_faces>({"free", "symmetric"}),
            .meaning = "in 3D; free: no forces act on the side faces; symmetric: they do not move along the "

@@ -57,7 +57,7 @@ RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<dou
   RollingReport report{.title = fmt::format("{}, {}", title, wheel.which),
                        .width = c.wheel.width,
                        .n_sectors = c.wheel.sectors,
-                       .analysis = rolling_analysis(solver, solution),
+                       .analysis = rolling_analysis(solver, solution, print_contact_progress()),
                        .loads = {},
                        .under_loads = {},
                        .dimension = dim,
@@ -82,7 +82,7 @@ Expected<FinerReport, std::string> finer_report(const Expected<SolvedFinerShape<
                                                 const LoadCases<dim>& all_loads) {
   if (!finer) return finer.failure();
   return FinerReport{
-      rolling_analysis(*finer->solver, *finer->states),
+      rolling_analysis(*finer->solver, *finer->states, print_contact_progress()),
       under_loads<dim>(*finer->states, loads, print_contact_progress()),
       finer->refinement,
       rolling_losses<dim>(*finer->solver, finer->shape, *finer->states),

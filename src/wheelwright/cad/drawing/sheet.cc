@@ -34,6 +34,26 @@ void take_out_unusable(std::vector<Part>& parts, const CurvesOf& all_usable, She
   });
 }
 
+/// One problem for all open ends of an element, which may be drawn several times.
+void add_open_ends(const std::vector<OpenEnd>& ends, Sheet& sheet) {
+  const auto is_like = [](const OpenEnd& end) {
+    return
+        [&end](const OpenEnd& other) { return other.place == end.place && other.branches == end.branches; };
+  };
+  for (auto end = ends.begin(); end != ends.end() && sheet.problems.size() < most_problems; ++end) {
+    if (std::any_of(ends.begin(), end, is_like(*end))) continue;
+    const auto others = std::count_if(end + 1, ends.end(), is_like(*end));
+    const std::string elsewhere = others == 0 ? "" : fmt::format(", and at {} other places", others);
+    sheet.problems.push_back(
+        {0,
+         fmt::format("{}: {} {}{}", end->place,
+                     end->branches ? "more than two curves end" : "the outline is open", at_text(end->at),
+                     others == 1 ? ", and at another place" : elsewhere),
+         end->branches ? "remove what is drawn twice, and construction lines"
+                       : "close it: its ends must be the same point"});
+  }
+}
+
 }  // namespace
 
 std::string at_text(const Point& p) { return fmt::format("at [{:.7g}, {:.7g}]", p[0], p[1]); }
@@ -59,15 +79,7 @@ std::vector<DrawnLoop> closed_loops(Sheet& sheet) {
   std::vector<DrawnLoop> loops = sheet.loops;
   if (!sheet.loose.empty()) {
     Chains chains = chained(sheet.loose, joined * box.size());
-    for (const OpenEnd& end : chains.open_ends) {
-      if (sheet.problems.size() >= most_problems) break;
-      sheet.problems.push_back(
-          {0,
-           fmt::format("{}: {} {}", end.place,
-                       end.branches ? "more than two curves end" : "the outline is open", at_text(end.at)),
-           end.branches ? "remove what is drawn twice, and construction lines"
-                        : "close it: its ends must be the same point"});
-    }
+    add_open_ends(chains.open_ends, sheet);
     for (DrawnLoop& loop : chains.loops) loops.push_back(std::move(loop));
   }
   std::erase_if(loops, [](const DrawnLoop& loop) { return loop.curves.empty(); });

@@ -38,14 +38,32 @@ std::optional<Failure> unsupported_model(const RollingModel<dim>& model) {
   return unsupported_loads(model);
 }
 
-/// The failure of a position whose edges cross.
+/// An equilibrium under a load, or at a held travel.
+template <int dim>
+struct UnderLoad {
+  std::optional<double> load;  ///< [N/m]
+  const RingEquilibrium<dim>& equilibrium;
+};
+
+/// The load of a model, unless the travel is held.
+template <int dim>
+std::optional<double> load_of(const RollingModel<dim>& model) {
+  return model.travel ? std::nullopt : std::optional(model.load);
+}
+
+/// The failure of a position whose edges cross, and do not under `last`.
 template <int dim>
 std::optional<EquilibriumFailure> overlap(const DeformableRing<dim>& ring, const MaterialEdges<dim>& edges,
-                                          const RingEquilibrium<dim>& equilibrium) {
+                                          const UnderLoad<dim>& last, const UnderLoad<dim>& now) {
   const PolarGrid<dim>& grid = ring.domain.grid;
-  const double travel = equilibrium.state.rim.towards_ground / (grid.outer_radius - grid.inner_radius);
-  if (travel < smallest_travel_of_overlap || !edges.overlap(nodal_displacement(ring, equilibrium))) return {};
-  return EquilibriumFailure{overlap_failure(travel)};
+  const double travel = now.equilibrium.state.rim.towards_ground / (grid.outer_radius - grid.inner_radius);
+  if (travel < smallest_travel_of_overlap) return {};
+  const auto place = edges.first_crossing(nodal_displacement(ring, last.equilibrium),
+                                          nodal_displacement(ring, now.equilibrium));
+  if (!place) return {};
+  if (!last.load || !now.load) return EquilibriumFailure{overlap_failure(travel, *place)};
+  return EquilibriumFailure{
+      overlap_failure<dim>(travel, *place, std::lerp(*last.load, *now.load, place->share))};
 }
 
 /// Seeks a position from a solution with the tangent there (null: unknown). The zone of the tangent at its
@@ -233,6 +251,7 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
   const DeformableRing<dim>& ring = *solution.ring;
   const MaterialEdges<dim> edges(ring.psi, ring.forms.space().lattice());
   LinearizedEquilibrium<dim> last{solution.equilibria[position], nullptr};
+  std::optional<double> last_load = load_of(solution.model);
   struct FailedLoad {
     double load;
     FailureReason reason;
@@ -245,10 +264,12 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
       continue;
     }
     const int next_half_zone = k + 1 < models.size() ? solver(models[k + 1]).first_half_zone() : 0;
-    auto point =
-        linearized_solution(solver(models[k]), last.solution, last.linearization, next_half_zone, interrupt);
+    auto point = linearized_solution(solver(models[k]), last.solution, last.linearization, next_half_zone,
+                                     interrupt.at_load(static_cast<int>(k), static_cast<int>(models.size())));
     if (point)
-      if (auto failure = overlap(ring, edges, point->solution)) point = *std::move(failure);
+      if (auto failure =
+              overlap<dim>(ring, edges, {last_load, last.solution}, {load_of(models[k]), point->solution}))
+        point = *std::move(failure);
     if (!point) {
       if (!models[k].travel && point.failure().reason != FailureReason::interrupted)
         too_large = FailedLoad{models[k].load, point.failure().reason};
@@ -256,6 +277,7 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
       continue;
     }
     last = *std::move(point);
+    last_load = load_of(models[k]);
     result.emplace_back(
         LoadedEquilibrium<dim>{last.solution, tangent_stiffness(last.solution.contact, last.solution.state)});
   }

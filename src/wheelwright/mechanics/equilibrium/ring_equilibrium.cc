@@ -136,7 +136,8 @@ auto EquilibriumSolver<dim>::newton(const RimControl& rim, GroundPosition ground
       if (failure.reason == FailureReason::not_positive_definite) failure.unstable = v;
       return failure;
     }
-    auto wanted = correction(**linearization, (**linearization).forces(), v, rim, known, interrupt);
+    auto wanted = correction(**linearization, (**linearization).forces(), v, rim, known,
+                             interrupt.after_steps(n_tangents + n_corrections));
     if (!wanted) return EquilibriumFailure{wanted.failure()};
     const auto converged = [&](const Correction& last) {
       return last.size() <=
@@ -161,7 +162,8 @@ auto EquilibriumSolver<dim>::newton(const RimControl& rim, GroundPosition ground
         auto trial = sum(v, part, wanted->step);
         const auto forces = problem_.forms.forces(trial);
         if (!forces.admissible()) continue;
-        auto next = correction(**linearization, forces, trial, rim, wanted->state, interrupt);
+        auto next = correction(**linearization, forces, trial, rim, wanted->state,
+                               interrupt.after_steps(n_tangents + n_corrections));
         ++n_corrections;
         if (!next && next.failure().reason == FailureReason::interrupted)
           return EquilibriumFailure{next.failure()};

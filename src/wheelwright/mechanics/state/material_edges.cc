@@ -47,9 +47,9 @@ bool cross(const Side& a, const Side& b) {
          turn(b.from, b.to, a.from) * turn(b.from, b.to, a.to) < 0;
 }
 
-/// Whether sides of closed polylines cross, other than neighbours. Sides are sorted into squares as wide as
+/// Two sides of closed polylines that cross, other than neighbours. Sides are sorted into squares as wide as
 /// the longest of them, so that each meets those of nine squares at most.
-bool any_cross(const std::vector<std::vector<Vec<2>>>& curves) {
+std::optional<std::pair<Side, Side>> crossing_sides(const std::vector<std::vector<Vec<2>>>& curves) {
   std::vector<Side> sides;
   double longest = 0;
   for (size_t c = 0; c < curves.size(); ++c)
@@ -67,10 +67,25 @@ bool any_cross(const std::vector<std::vector<Vec<2>>>& curves) {
       for (int dj = -1; dj <= 1; ++dj)
         if (const auto found = squares.find(key(i + di, j + dj)); found != squares.end())
           for (const size_t t : found->second)
-            if (cross(sides[s], sides[t])) return true;
+            if (cross(sides[s], sides[t])) return std::pair(sides[t], sides[s]);
     squares[key(i, j)].push_back(s);
   }
-  return false;
+  return {};
+}
+
+/// (1 - share) a + share b.
+RingField between(const RingField& a, const RingField& b, double share) {
+  RingField result = b;
+  for (size_t i = 0; i < result.values.size(); ++i)
+    result.values[i] = (1 - share) * a.values[i] + share * b.values[i];
+  return result;
+}
+
+template <int dim>
+std::string place_text(const Vec<dim>& x) {
+  const double azimuth = std::atan2(x[1], x[0]) * 180 / std::numbers::pi;
+  return fmt::format("radius {:.4g} mm, {:.4g} deg", 1e3 * std::hypot(x[0], x[1]),
+                     azimuth < 0 ? azimuth + 360 : azimuth);
 }
 
 }  // namespace
@@ -89,25 +104,66 @@ MaterialEdges<3>::MaterialEdges(const LevelSet<3>&, const Lattice<3>& lattice)
     : nodes_per_cell_(nodes_per_cell<3>(lattice.degree())) {}
 
 template <>
-bool MaterialEdges<2>::overlap(const RingField& u) const {
+std::optional<EdgeCrossing<2>> MaterialEdges<2>::crossing(const RingField& u) const {
   std::vector<std::vector<Vec<2>>> curves;
   for (const auto& edge : edges_) {
     auto& curve = curves.emplace_back();
     for (const Point& point : edge) curve.push_back(deformed(point, u, nodes_per_cell_));
   }
-  return any_cross(curves);
+  const auto sides = crossing_sides(curves);
+  if (!sides) return {};
+  const auto undeformed = [&](const Side& side) {
+    const auto& edge = edges_[side.curve];
+    return 0.5 * (edge[side.index].x + edge[(side.index + 1) % edge.size()].x);
+  };
+  return EdgeCrossing<2>{undeformed(sides->first), undeformed(sides->second), 1};
 }
 
 template <>
-bool MaterialEdges<3>::overlap(const RingField&) const {
-  return false;
+std::optional<EdgeCrossing<3>> MaterialEdges<3>::crossing(const RingField&) const {
+  return {};
 }
 
-Failure overlap_failure(double travel) {
-  return {FailureReason::material_overlaps,
-          fmt::format("deformed edges of holes cross each other at a rim travel of {:.3g} % of the ring's "
-                      "thickness: the load is too large for this material and shape",
-                      100 * travel)};
+template <int dim>
+bool MaterialEdges<dim>::overlap(const RingField& u) const {
+  return crossing(u).has_value();
 }
+
+template <int dim>
+std::optional<EdgeCrossing<dim>> MaterialEdges<dim>::first_crossing(const RingField& from,
+                                                                    const RingField& to) const {
+  constexpr double accuracy = 1e-3;
+  auto found = crossing(to);
+  if (!found) return {};
+  for (double free = 0; found->share - free > accuracy;) {
+    const double share = 0.5 * (free + found->share);
+    if (auto earlier = crossing(between(from, to, share))) {
+      found = *std::move(earlier);
+      found->share = share;
+    } else {
+      free = share;
+    }
+  }
+  return found;
+}
+
+template <int dim>
+std::optional<EdgeCrossing<dim>> MaterialEdges<dim>::first_crossing(const RingField& to) const {
+  return first_crossing({to.components, std::vector<double>(to.values.size())}, to);
+}
+
+template <int dim>
+Failure overlap_failure(double travel, const EdgeCrossing<dim>& place, std::optional<double> load) {
+  const std::string at_load = load ? fmt::format(", first at about {:.4g} N/m", *load) : "";
+  return {FailureReason::material_overlaps,
+          fmt::format("deformed edges cross each other at a rim travel of {:.3g} % of the ring's "
+                      "thickness{}: the edge at {} meets that at {} (undeformed)",
+                      100 * travel, at_load, place_text<dim>(place.on_one), place_text<dim>(place.on_other))};
+}
+
+template class MaterialEdges<2>;
+template class MaterialEdges<3>;
+template Failure overlap_failure(double, const EdgeCrossing<2>&, std::optional<double>);
+template Failure overlap_failure(double, const EdgeCrossing<3>&, std::optional<double>);
 
 }  // namespace wheelwright

@@ -315,15 +315,35 @@ std::string variation_lines(const RollingReport& report) {
   return table;
 }
 
-/// Between which of the loads the curve ends; empty if all or none were computed.
-std::string largest_load_line(const RollingReport& report) {
+/// Where the curve of loads ends.
+struct EndOfCurve {
+  double carried, too_large;  ///< loads on the whole width [N]
+  FailureReason reason;       ///< of the latter
+};
+
+/// Nothing if all loads were computed, or none.
+std::optional<EndOfCurve> end_of_curve(const RollingReport& report) {
   const auto failed = std::ranges::find_if(report.under_loads, [](const auto& state) { return !state; });
-  if (failed == report.under_loads.end() || failed == report.under_loads.begin()) return "";
+  if (failed == report.under_loads.end() || failed == report.under_loads.begin()) return {};
   const auto k = static_cast<size_t>(failed - report.under_loads.begin());
-  const double carried = report.loads[k - 1] * forces(report), too_large = report.loads[k] * forces(report);
+  return EndOfCurve{report.loads[k - 1] * forces(report), report.loads[k] * forces(report),
+                    failed->failure().reason};
+}
+
+std::string largest_load_line(const RollingReport& report) {
+  const auto end = end_of_curve(report);
+  if (!end) return "";
   return fmt::format(
-      "the curve ends between {:.6g} N and {:.6g} N; --loads {:.6g}:{:.6g}:5 narrows it down\n", carried,
-      too_large, carried, too_large);
+      "the curve ends between {0:.6g} N and {1:.6g} N; --loads {0:.6g}:{1:.6g}:5 narrows it down\n",
+      end->carried, end->too_large);
+}
+
+/// The title of a plot over the loads.
+std::string title_over_loads(const RollingReport& report, const std::string& what) {
+  const auto end = end_of_curve(report);
+  if (!end) return what + " against load";
+  return fmt::format("{} against load; ends between {:.6g} and {:.6g} N: {}", what, end->carried,
+                     end->too_large, to_string(end->reason));
 }
 
 std::string missing_lines(const RollingReport& report) {
@@ -886,7 +906,7 @@ LinePlot peak_pressure_plot(const RollingReport& report) {
 }
 
 LinePlot load_plot(const RollingReport& report) {
-  LinePlot plot{"Deflection against load",
+  LinePlot plot{title_over_loads(report, "Deflection"),
                 {"load", "N"},
                 {"rim travel", "mm"},
                 {{"softest", {0}, {0}}, {"mean", {0}, {0}}, {"stiffest", {0}, {0}}}};
@@ -903,7 +923,7 @@ LinePlot load_plot(const RollingReport& report) {
 }
 
 LinePlot stiffness_plot(const RollingReport& report) {
-  LinePlot plot{"Stiffness against load",
+  LinePlot plot{title_over_loads(report, "Stiffness"),
                 {"load", "N"},
                 {"stiffness", "N/mm"},
                 {{"secant", {}, {}}, {"tangent", {}, {}}}};

@@ -60,8 +60,12 @@ template <int dim>
 std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                          const State<dim>& state) {
   const double travel = travel_by_thickness(solver, state);
-  if (travel < smallest_travel_of_overlap || !edges_overlap<dim>(solver, psi, state)) return {};
-  return overlap_failure(travel);
+  if (travel < smallest_travel_of_overlap) return {};
+  const MaterialEdges<dim> edges(psi, displacement_lattice(solver));
+  for (int position = 0; position < state.positions().size(); ++position)
+    if (const auto place = edges.first_crossing(state.displacement().at_nodes(position)))
+      return overlap_failure(travel, *place);
+  return {};
 }
 
 double share_of_small_load(const DeformationSize& size) {

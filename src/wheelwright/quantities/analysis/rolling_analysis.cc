@@ -35,8 +35,9 @@ Expected<std::vector<ContactSummary>> summaries(const Expected<std::vector<Conta
 }
 
 template <int dim>
-Expected<std::vector<ContactSummary>> under(const State<dim>& state, const RollingModel<dim>& model) {
-  return summaries(state.contacts_under(std::span(&model, 1), {}).front());
+Expected<std::vector<ContactSummary>> under(const State<dim>& state, const RollingModel<dim>& model,
+                                            const Interrupt& interrupt) {
+  return summaries(state.contacts_under(std::span(&model, 1), interrupt).front());
 }
 
 std::vector<double> values(const std::vector<ContactSummary>& positions, double ContactSummary::*member) {
@@ -85,7 +86,8 @@ RollingAnalysis of_all_positions(RollingAnalysis a, const LoadPositions& solved,
 }  // namespace
 
 template <int dim>
-RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state) {
+RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state,
+                                 const Interrupt& interrupt) {
   const RollingModel<dim>& model = state.model();
   const StrainPeaks<dim>& peaks = state.strain_peaks();
   const int worst = most_stressed_position(state);
@@ -113,7 +115,8 @@ RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim
   for (const GroundPosition& ground : state.positions().grounds)
     analysis.azimuths.push_back(ground.azimuth(solver.model().grid));
   const auto held_otherwise =
-      under(state, held == Held::load ? at_travel(model, analysis.travel) : at_load(model, analysis.load));
+      under(state, held == Held::load ? at_travel(model, analysis.travel) : at_load(model, analysis.load),
+            interrupt);
   auto& unknown = held == Held::load ? analysis.force_at_travel : analysis.travel_at_load;
   if (!held_otherwise)
     unknown = held_otherwise.failure();

@@ -36,7 +36,8 @@ struct RollingAnalysis {
 };
 
 template <int dim>
-RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state);
+RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state,
+                                 const Interrupt& interrupt = {});
 
 /// All positions under other loads, in an order in which each is near the one before: [load][position]. A
 /// load fails on its own (State::contacts_under()).

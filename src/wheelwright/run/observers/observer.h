@@ -34,6 +34,7 @@ struct TrialDone {
 /// The contact of a shape is being solved; sent every few seconds, to show the progress of long solves.
 struct ContactAdvanced {
   ContactProgress progress;
+  bool for_results;  ///< of a run that has ended, also on a finer grid, and not for a new shape
 };
 
 /// The last accepted shape should be saved now, unless it is saved already.

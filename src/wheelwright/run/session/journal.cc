@@ -6,13 +6,18 @@ namespace wheelwright {
 
 template <int dim>
 void Journal<dim>::notify(const Event<dim>& event) const {
+  notify(event, elapsed_);
+}
+
+template <int dim>
+void Journal<dim>::notify(const Event<dim>& event, double elapsed) const {
   const auto bench = session_.bench();
   const RunView<dim> view{.folder = folder_,
                           .study = bench->study,
                           .evolver = bench->optimizer.evolver(),
                           .initial = session_.initial(),
                           .nucleation = session_.nucleation(),
-                          .elapsed_seconds = elapsed_,
+                          .elapsed_seconds = elapsed,
                           .can_undo = !session_.past().empty(),
                           .observers = observers_};
   for (const auto& observer : observers_) (*observer)(event, view);
@@ -61,11 +66,11 @@ void Journal<dim>::set_failed(int iteration, const LevelSet<dim>& shape, const F
 }
 
 template <int dim>
-void Journal<dim>::show(const ContactProgress& progress) {
+void Journal<dim>::show(const ContactAdvanced& progress) {
   constexpr double seconds_between_signs = 2;
   if (sign_of_life_.seconds() < seconds_between_signs) return;
   sign_of_life_.lap();
-  notify(ContactAdvanced{progress});
+  notify(progress, elapsed_ + watch_.seconds());
 }
 
 template <int dim>

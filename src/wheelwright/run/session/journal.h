@@ -25,7 +25,7 @@ class Journal {
   void record(const Trial<dim>& trial);
 
   /// Reports the progress of slow contact problems, every few seconds.
-  void show(const ContactProgress& progress);
+  void show(const ContactAdvanced& progress);
 
   void add_seconds(double earlier) { elapsed_ += earlier; }
   void stop_clock() { elapsed_ += watch_.lap(); }
@@ -45,6 +45,7 @@ class Journal {
 
  private:
   void keep(const Trial<dim>& trial);
+  void notify(const Event<dim>& event, double elapsed) const;
 
   const std::filesystem::path& folder_;
   const Observers<dim>& observers_;

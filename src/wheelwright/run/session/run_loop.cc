@@ -13,7 +13,7 @@ RunLoop<dim>::RunLoop(const std::filesystem::path& folder, Study<dim> study, con
       commands_(commands),
       on_end_(on_end),
       stop_file_(std::make_shared<StopFile>(folder)),
-      session_(std::move(study), at_stop(), Interrupt({}, progress())),
+      session_(std::move(study), at_stop(progress_of_shape()), Interrupt({}, progress_of_shape())),
       journal_(folder, observers, session_),
       schedule_(session_, journal_),
       control_(folder, session_, journal_, commands) {
@@ -111,12 +111,12 @@ template <int dim>
 RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   control_.save();
   stop_file_->remove();
-  return end_run(session_, journal_, reason, at_stop());
+  return end_run(session_, journal_, reason, at_stop(progress_of_results()));
 }
 
 template <int dim>
-Interrupt RunLoop<dim>::at_stop() {
-  return Interrupt([this] { return commands_.waiting_stops() > 0; }, progress());
+Interrupt RunLoop<dim>::at_stop(Interrupt::Progress progress) {
+  return Interrupt([this] { return commands_.waiting_stops() > 0; }, std::move(progress));
 }
 
 /// Commands to stop that are waiting already let the evaluation be completed.
@@ -124,12 +124,17 @@ template <int dim>
 Interrupt RunLoop<dim>::at_later_stop() {
   return Interrupt(
       [this, waiting = commands_.waiting_stops()] { return commands_.waiting_stops() > waiting; },
-      progress());
+      progress_of_shape());
 }
 
 template <int dim>
-Interrupt::Progress RunLoop<dim>::progress() {
-  return [this](const ContactProgress& progress) { journal_.show(progress); };
+Interrupt::Progress RunLoop<dim>::progress_of_shape() {
+  return [this](const ContactProgress& progress) { journal_.show({progress, false}); };
+}
+
+template <int dim>
+Interrupt::Progress RunLoop<dim>::progress_of_results() {
+  return [this](const ContactProgress& progress) { journal_.show({progress, true}); };
 }
 
 template class RunLoop<2>;

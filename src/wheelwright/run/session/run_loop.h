@@ -32,9 +32,10 @@ class RunLoop {
   RunResult<dim> give_up(const Failure& failure);
   RunResult<dim> end(StopReason reason);
 
-  Interrupt at_stop();
+  Interrupt at_stop(Interrupt::Progress progress);
   Interrupt at_later_stop();
-  Interrupt::Progress progress();
+  Interrupt::Progress progress_of_shape();
+  Interrupt::Progress progress_of_results();
 
   const std::filesystem::path& folder_;
   CommandQueue& commands_;
