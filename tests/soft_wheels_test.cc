@@ -185,6 +185,54 @@ TEST(SoftWheels, ACurveEndsWhereEdgesCross) {
   EXPECT_FALSE(curve.back());
 }
 
+/// A flat slot over the ground closes under its load: the curve says at about which load, and at which
+/// places.
+TEST(SoftWheels, ACurveSaysTheLoadAtWhichASlotCloses) {
+  Case c = coarse_soft_spokes();
+  constexpr double middle = 0.175, width = 0.005;
+  c.shapes = {};
+  c.material.youngs_modulus = 8e6;
+  c.material.poissons_ratio = 0.45;
+  c.grid.radial_cells = 28;
+  c.grid.angular_cells = 240;
+  c.shapes.slots.push_back({.count = 12,
+                            .center_radius = middle,
+                            .length = 0.06,
+                            .width = width,
+                            .angle = std::numbers::pi / 2,
+                            .phase = 0});
+  c.wheel.sectors = 12;
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto under = [&](double load) {
+    Case loaded = c;
+    loaded.load.force = load;
+    return rolling_model<2>(loaded);
+  };
+  const auto problem = *LargeDeformationProblem<2>::create(under(700));
+  const auto solution = over_a_spoke(problem, shape);
+  ASSERT_TRUE(solution) << solution.failure().detail;
+  const std::vector<RollingModel<2>> models{under(1000), under(2000)};
+  const auto curve = problem.curve(*solution, 0, models);
+  ASSERT_TRUE(curve[0]) << curve[0].failure().detail;
+  ASSERT_FALSE(curve[1]);
+  const Failure& failure = curve[1].failure();
+  ASSERT_EQ(failure.reason, FailureReason::material_overlaps) << failure.detail;
+  ASSERT_TRUE(failure.largest_load);
+  const double largest = *failure.largest_load;
+  const MaterialEdges<2> edges(shape, {models[0].grid, models[0].degree});
+  const auto closes_under = [&](double load) {
+    const auto afresh = over_a_spoke(*LargeDeformationProblem<2>::create(under(load * c.wheel.width)), shape);
+    return edges.overlap(nodal_displacement(*afresh->ring, afresh->equilibria.front()));
+  };
+  EXPECT_FALSE(closes_under(0.9 * largest));
+  EXPECT_TRUE(closes_under(1.1 * largest));
+  std::smatch radii;
+  ASSERT_TRUE(std::regex_search(failure.detail, radii,
+                                std::regex("at radius ([0-9.]+) mm.* at radius ([0-9.]+) mm")));
+  EXPECT_NEAR(std::abs(std::stod(radii[1]) - std::stod(radii[2])) / 1000 / width, 1, 0.3) << failure.detail;
+  EXPECT_NEAR((std::stod(radii[1]) + std::stod(radii[2])) / 2000, middle, 0.3 * width);
+}
+
 /// Steps of a curve may be large: what Newton's method does not reach from the load before is sought
 /// otherwise.
 TEST(SoftWheels, ACurveTakesLargeSteps) {

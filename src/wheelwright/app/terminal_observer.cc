@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/trial_log.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/unlimited.h"
 #include "wheelwright/run/observers/run_warnings.h"
+#include "wheelwright/run/study/bounded_functions.h"
 
 namespace wheelwright {
 namespace {
 
-/// Shows the progress, and warnings about the wheel.
+/// Shows the progress, when bounds are kept, and warnings about the wheel.
 template <int dim>
 class TerminalObserver : public Observer<dim> {
  public:
@@ -42,6 +45,7 @@ class TerminalObserver : public Observer<dim> {
   void show(const TrialDone<dim>& done, const RunView<dim>& run) {
     const auto& [trial, state, seconds] = done;
     if (trial.verdict != Verdict::accepted) return;
+    tell_bounds(state);
     const PolarGrid<dim>& grid = run.study.grid();
     const int asked = run.study.optimizer.iterations;
     const ShownUnit shown = shown_unit(run.study.source.objective.minimize, run.study.source.wheel);
@@ -55,12 +59,28 @@ class TerminalObserver : public Observer<dim> {
                      .objective_unit = shown.name});
   }
 
+  /// Prints the bounds that the first shape violates, and when all are kept for the first time.
+  void tell_bounds(const OptimizationState<dim>& state) {
+    const auto bounds = bound_states(state.evaluation, {});
+    const bool are_kept = std::ranges::all_of(bounds, &BoundState::is_kept);
+    if (state.iteration == 0) {
+      is_violated_ = !are_kept;
+      for (const BoundState& bound : bounds)
+        if (!bound.is_kept())
+          progress_->note("the initial shape violates a bound: " + text(bound, state.shape.lattice.grid()));
+    } else if (are_kept && is_violated_) {
+      is_violated_ = false;
+      progress_->note(fmt::format("shape {}: all bounds are kept", state.iteration));
+    }
+  }
+
   static bool is_normal_end(StopReason reason) {
     return reason == StopReason::converged || reason == StopReason::no_descent ||
            reason == StopReason::iterations;
   }
 
   std::shared_ptr<Progress> progress_;
+  bool is_violated_ = false;  ///< a bound by the first shape and all since
 };
 
 }  // namespace

@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "wheelwright/base/text.h"
-#include "wheelwright/run/study/bounded_functions.h"
 
 namespace wheelwright {
 namespace {
@@ -45,20 +42,6 @@ void TrialLog<dim>::tell_trial(const TrialDone<dim>& done) {
   }
   for (const auto& event : trial.events)
     progress_->note(fmt::format("shape {}: {}", trial.iteration, text(event)));
-  tell_bounds(done.state);
-}
-
-/// Prints the bounds that the first shape violates, and when all are kept for the first time.
-template <int dim>
-void TrialLog<dim>::tell_bounds(const OptimizationState<dim>& state) {
-  const auto bounds = bound_states(state.evaluation, {});
-  const bool are_kept = std::ranges::all_of(bounds, &BoundState::is_kept);
-  if (state.iteration == 0)
-    for (const BoundState& bound : bounds)
-      if (!bound.is_kept())
-        progress_->note("the initial shape violates a bound: " + text(bound, state.shape.lattice.grid()));
-  if (are_kept && !were_kept_) progress_->note(fmt::format("shape {}: all bounds are kept", state.iteration));
-  were_kept_ = are_kept;
 }
 
 template class TrialLog<2>;

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-/// Prints the course of the search: rejected trials with the reason, changes of topology, bounds and grids.
+/// Prints the course of the search: rejected trials with the reason, changes of topology and grids.
 template <int dim>
 class TrialLog : public Observer<dim> {
  public:
@@ -18,10 +18,8 @@ class TrialLog : public Observer<dim> {
  private:
   void begin(const Study<dim>& study);
   void tell_trial(const TrialDone<dim>& done);
-  void tell_bounds(const OptimizationState<dim>& state);
 
   std::shared_ptr<Progress> progress_;
-  bool were_kept_ = true;  ///< whether the last shape seen kept the bounds
 };
 
 }  // namespace wheelwright

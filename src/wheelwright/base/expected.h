@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -79,6 +80,8 @@ constexpr const char* to_string(FailureReason reason) {
 struct Failure {
   FailureReason reason;
   std::string detail;  ///< one line: where, by how much, and what would help
+  /// About the largest load at which a wheel does not fail so, where it is known [N/m in 2D, N in 3D].
+  std::optional<double> largest_load = {};
 };
 
 /// "REASON: DETAIL".

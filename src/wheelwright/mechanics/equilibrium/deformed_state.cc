@@ -1,6 +1,7 @@
 #include "wheelwright/mechanics/equilibrium/deformed_state.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -168,11 +169,15 @@ class DeformedState : public State<dim> {
     });
     std::vector<Expected<std::vector<ContactPatch<dim>>>> result;
     for (size_t k = 0; k < models.size(); ++k) {
-      const auto failed = std::ranges::find_if(failures, [&](auto& f) { return f[k].has_value(); });
-      if (failed == failures.end())
+      std::vector<Failure> failed;
+      for (const auto& of_position : failures)
+        if (of_position[k]) failed.push_back(*of_position[k]);
+      if (failed.empty())
         result.emplace_back(std::move(patches[k]));
       else
-        result.emplace_back(*(*failed)[k]);
+        result.emplace_back(*std::ranges::min_element(failed, {}, [](const Failure& failure) {
+          return failure.largest_load.value_or(std::numeric_limits<double>::infinity());
+        }));
     }
     return result;
   }

@@ -254,13 +254,13 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
   std::optional<double> last_load = load_of(solution.model);
   struct FailedLoad {
     double load;
-    FailureReason reason;
+    Failure of_larger;  ///< of loads that are not sought
   };
   std::optional<FailedLoad> too_large;
   std::vector<Expected<LoadedEquilibrium<dim>, EquilibriumFailure>> result;
   for (size_t k = 0; k < models.size(); ++k) {
     if (too_large && !models[k].travel && models[k].load > too_large->load) {
-      result.emplace_back(EquilibriumFailure{{too_large->reason, "a smaller load fails already"}});
+      result.emplace_back(EquilibriumFailure{too_large->of_larger});
       continue;
     }
     const int next_half_zone = k + 1 < models.size() ? solver(models[k + 1]).first_half_zone() : 0;
@@ -271,8 +271,10 @@ auto LargeDeformationProblem<dim>::curve(const LargeDeformation<dim>& solution, 
               overlap<dim>(ring, edges, {last_load, last.solution}, {load_of(models[k]), point->solution}))
         point = *std::move(failure);
     if (!point) {
-      if (!models[k].travel && point.failure().reason != FailureReason::interrupted)
-        too_large = FailedLoad{models[k].load, point.failure().reason};
+      const EquilibriumFailure& failure = point.failure();
+      if (!models[k].travel && failure.reason != FailureReason::interrupted)
+        too_large = FailedLoad{models[k].load,
+                               {failure.reason, "a smaller load fails already", failure.largest_load}};
       result.emplace_back(point.failure());
       continue;
     }

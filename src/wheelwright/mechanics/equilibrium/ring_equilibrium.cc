@@ -342,7 +342,8 @@ auto EquilibriumSolver<dim>::beyond(const RimControl& rim, const RingEquilibrium
       return EquilibriumFailure{
           {FailureReason::overload,
            fmt::format("the wheel carries at most about {:.4g} N{} at this position, at a travel of {:.4g} m",
-                       largest, dim == 2 ? "/m" : "", at_largest)}};
+                       largest, dim == 2 ? "/m" : "", at_largest),
+           largest}};
     largest = force;
     at_largest = travel;
   }

@@ -158,7 +158,8 @@ Failure overlap_failure(double travel, const EdgeCrossing<dim>& place, std::opti
   return {FailureReason::material_overlaps,
           fmt::format("deformed edges cross each other at a rim travel of {:.3g} % of the ring's "
                       "thickness{}: the edge at {} meets that at {} (undeformed)",
-                      100 * travel, at_load, place_text<dim>(place.on_one), place_text<dim>(place.on_other))};
+                      100 * travel, at_load, place_text<dim>(place.on_one), place_text<dim>(place.on_other)),
+          load};
 }
 
 template class MaterialEdges<2>;

@@ -318,7 +318,7 @@ std::string variation_lines(const RollingReport& report) {
 /// Where the curve of loads ends.
 struct EndOfCurve {
   double carried, too_large;  ///< loads on the whole width [N]
-  FailureReason reason;       ///< of the latter
+  const Failure& failure;     ///< of the latter
 };
 
 /// Nothing if all loads were computed, or none.
@@ -327,15 +327,19 @@ std::optional<EndOfCurve> end_of_curve(const RollingReport& report) {
   if (failed == report.under_loads.end() || failed == report.under_loads.begin()) return {};
   const auto k = static_cast<size_t>(failed - report.under_loads.begin());
   return EndOfCurve{report.loads[k - 1] * forces(report), report.loads[k] * forces(report),
-                    failed->failure().reason};
+                    failed->failure()};
 }
 
 std::string largest_load_line(const RollingReport& report) {
   const auto end = end_of_curve(report);
   if (!end) return "";
-  return fmt::format(
-      "the curve ends between {0:.6g} N and {1:.6g} N; --loads {0:.6g}:{1:.6g}:5 narrows it down\n",
-      end->carried, end->too_large);
+  const auto& largest = end->failure.largest_load;
+  return fmt::format("the curve ends between {:.6g} N and {:.6g} N; ", end->carried, end->too_large) +
+         (largest ? fmt::format("{} about {:.4g} N\n",
+                                end->failure.reason == FailureReason::material_overlaps ? "its edges meet at"
+                                                                                        : "the wheel carries",
+                                *largest * forces(report))
+                  : fmt::format("--loads {:.6g}:{:.6g}:5 narrows it down\n", end->carried, end->too_large));
 }
 
 /// The title of a plot over the loads.
@@ -343,7 +347,7 @@ std::string title_over_loads(const RollingReport& report, const std::string& wha
   const auto end = end_of_curve(report);
   if (!end) return what + " against load";
   return fmt::format("{} against load; ends between {:.6g} and {:.6g} N: {}", what, end->carried,
-                     end->too_large, to_string(end->reason));
+                     end->too_large, to_string(end->failure.reason));
 }
 
 std::string missing_lines(const RollingReport& report) {
@@ -755,7 +759,9 @@ Json loads_json(const RollingReport& report) {
   for (size_t k = 0; k < report.loads.size(); ++k) {
     const double load = report.loads[k] * forces(report);
     if (!report.under_loads[k]) {
-      loads.push_back({{"load_N", load}, {"missing", to_string(report.under_loads[k].failure())}});
+      const Failure& failure = report.under_loads[k].failure();
+      loads.push_back({{"load_N", load}, {"missing", to_string(failure)}});
+      if (failure.largest_load) loads.back()["largest_load_N"] = *failure.largest_load * forces(report);
       continue;
     }
     Json positions = Json::array();
