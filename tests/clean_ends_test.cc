@@ -224,5 +224,50 @@ TEST(FinalWidths, AreNotUsedIfTheCaseGivesWidths) {
   EXPECT_FALSE(thin_walls(any.last.shape, 0.4 * cell).empty());
 }
 
+/// The steps of this wheel, which follow a bound that curves, fall to a thirtieth of a cell long before the
+/// optimum: the search then begins again with full steps.
+TEST(Convergence, ARestartGainsLittle) {
+  const auto read = parse_case(R"(
+[wheel]
+inner_radius = 0.2
+outer_radius = 0.34
+sectors = 24
+[material]
+density = 1100
+youngs_modulus = 200e6
+poissons_ratio = 0.479
+[load]
+mass = 195
+[grid]
+radial_cells = 20
+angular_cells = 264
+[[shape.slot]]
+count = 24
+center_radius = 0.27
+length = 0.0815
+width = 0.0251
+[objective]
+minimize = "mass"
+[[constraint]]
+quantity = "stiffness"
+at_least = 67.47e6
+[optimizer]
+rim_band = 0.01
+tread_band = 0.014
+)",
+                               "slots.toml");
+  const auto study = make_study<2>(read.value.value());
+  const auto optimizer = optimizer_of(*study);
+  const auto ignore = [](const Trial<2>&, const OptimizationState<2>&) {};
+  auto state = *optimizer.start(study->initial, ignore);
+  const auto mass_at_the_end = [&] {
+    EXPECT_EQ(optimizer.run(state, ignore, [] { return false; }), StopReason::converged);
+    return state.history.back().objective;
+  };
+  const double mass = mass_at_the_end();
+  state = *optimizer.restart(state, ignore);
+  EXPECT_LT(mass / mass_at_the_end() - 1, 0.002);
+}
+
 }  // namespace
 }  // namespace wheelwright

@@ -53,6 +53,19 @@ bool predicts_gain(const OptimizerOptions& options, const OptimizationState<dim>
   return decrease > options.tolerance * std::abs(state.evaluation.function(options.objective).value);
 }
 
+template <int dim>
+bool has_lost_its_model(const OptimizerOptions& options, const OptimizationState<dim>& state) {
+  constexpr double small = 0.1;
+  if (options.method == Method::descent || options.tolerance <= 0 || state.step >= small * options.step)
+    return false;
+  const AcceptedShape& first = state.history.front();
+  return first.violation > feasible_violation ||
+         state.history.back().objective < first.objective - options.tolerance * std::abs(first.objective);
+}
+
+template decltype(has_lost_its_model<2>) has_lost_its_model<2>;
+template decltype(has_lost_its_model<3>) has_lost_its_model<3>;
+
 template decltype(has_converged<2>) has_converged<2>;
 template decltype(predicts_gain<2>) predicts_gain<2>;
 template decltype(has_converged<3>) has_converged<3>;

@@ -25,4 +25,9 @@ bool has_converged(const OptimizerOptions& options, const OptimizationState<dim>
 template <int dim>
 bool predicts_gain(const OptimizerOptions& options, const OptimizationState<dim>& state, double decrease);
 
+/// Whether a search that gains no more has only its small steps to blame, which a model from far away made
+/// so: it is repeated with full steps and without that model, as long as that gains more than the tolerance.
+template <int dim>
+bool has_lost_its_model(const OptimizerOptions& options, const OptimizationState<dim>& state);
+
 }  // namespace wheelwright

@@ -148,6 +148,11 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
   if (repair == Repair::interrupted) return StopReason::stop_requested;
   if (repair == Repair::done) return std::nullopt;
   const auto reason = descend(state, observer, stop_requested);
+  if ((reason == StopReason::converged || reason == StopReason::no_descent) &&
+      has_lost_its_model(options_, state)) {
+    state = with_new_model(std::move(state));
+    return std::nullopt;
+  }
   const bool goes_no_further =
       reason == StopReason::converged || reason == StopReason::no_descent || reason == StopReason::gave_up;
   if (!goes_no_further || !may_be_repaired(options_, state)) return reason;
@@ -221,6 +226,16 @@ OptimizationState<dim> ShapeOptimizer<dim>::restarted(OptimizationState<dim> sta
   ++state.since_smoothing;
   state.history = {accepted_shape(*trial.evaluation)};
   state.history_begin = trial.iteration;
+  return state;
+}
+
+/// The state without what was learned from earlier shapes, to be searched from as a first one is.
+template <int dim>
+OptimizationState<dim> ShapeOptimizer<dim>::with_new_model(OptimizationState<dim> state) const {
+  state.step = options_.step;
+  state.memory.pairs.clear();
+  state.history = {state.history.back()};
+  state.history_begin = state.iteration;
   return state;
 }
 

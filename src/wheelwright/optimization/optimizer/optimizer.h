@@ -110,6 +110,7 @@ class ShapeOptimizer {
   bool begins_with_sharp_corners(const OptimizationState<dim>& state) const;
   bool has_widths(const LevelSet<dim>& shape, const FeatureSize& widths) const;
   OptimizationState<dim> restarted(OptimizationState<dim> state, const Trial<dim>& trial) const;
+  OptimizationState<dim> with_new_model(OptimizationState<dim> state) const;
   std::optional<StopReason> descend(OptimizationState<dim>& state, const Observer& observer,
                                     const std::function<bool()>& stop_requested) const;
   AcceptedShape accepted_shape(const Evaluation<dim>& evaluation) const;
