@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
@@ -12,6 +14,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/process_settings.h"
 #include "wheelwright/base/text.h"
+#include "wheelwright/case/suggest.h"
 #include "wheelwright/run/checkpoints/provenance.h"
 
 namespace wheelwright {
@@ -36,8 +39,26 @@ std::string unexpected(const CLI::App& app) {
   return without_control_characters(text);
 }
 
+/// The complaint about the first argument if it is a word that is no command.
+std::optional<std::string> unknown_command(const Commands& commands, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const auto& command : commands) names.push_back(command->name());
+  if (std::ranges::find(names, word) != names.end()) return {};
+  const auto near = did_you_mean(word, {names.begin(), names.end()});
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return fmt::format("{}: no such command; {}", without_control_characters(word),
+                     near ? fmt::format("did you mean {}?", *near) : "the commands are " + all);
+}
+
 int parse_and_run(int argc, char** argv) {
   const Commands commands = make_commands();
+  if (const auto complaint = unknown_command(commands, argc, argv)) {
+    print_err("{}\n", *complaint);
+    return exit_usage;
+  }
   CLI::App app("Optimizes the shape of elastic rolling structures");
   declare(app, commands);
   try {

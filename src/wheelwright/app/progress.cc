@@ -126,12 +126,12 @@ double Progress::seconds_left(const ProgressState& state) {
   return mean * std::max(0, *state.n_shapes - state.shape);
 }
 
-bool Progress::is_time_for_a_line(double elapsed_seconds) const {
-  return !last_line_ || elapsed_seconds - *last_line_ >= seconds_between_lines_;
+bool Progress::is_time_after(const std::optional<double>& last, double elapsed_seconds) const {
+  return !last || elapsed_seconds - *last >= seconds_between_lines_;
 }
 
 void Progress::write_line(const ProgressState& state, double left) {
-  last_line_ = state.elapsed_seconds;
+  last_line_ = last_shape_ = state.elapsed_seconds;
   last_has_line_ = true;
   note(progress_line(state, left));
 }
@@ -143,7 +143,7 @@ void Progress::show(const ProgressState& state) {
   if (style_ != ProgressStyle::lines) {
     bar_ = progress_bar(state, left, terminal_width(stream_) - 1);
     paint_bar();
-  } else if (is_time_for_a_line(state.elapsed_seconds) || is_last(state)) {
+  } else if (is_time_after(last_shape_, state.elapsed_seconds) || is_last(state)) {
     write_line(state, left);
   }
 }
@@ -152,7 +152,7 @@ void Progress::show_step(const std::string& text, double elapsed_seconds) {
   if (style_ != ProgressStyle::lines) {
     bar_ = without_control_characters(text).substr(0, std::max(terminal_width(stream_) - 1, 0));
     paint_bar();
-  } else if (is_time_for_a_line(elapsed_seconds)) {
+  } else if (is_time_after(last_line_, elapsed_seconds)) {
     last_line_ = elapsed_seconds;
     note(text);
   }

@@ -67,7 +67,7 @@ class Progress {
 
  private:
   double seconds_left(const ProgressState& state);
-  bool is_time_for_a_line(double elapsed_seconds) const;
+  bool is_time_after(const std::optional<double>& last, double elapsed_seconds) const;
   void write_line(const ProgressState& state, double left);
   void paint_bar();
 
@@ -76,6 +76,7 @@ class Progress {
   double seconds_between_lines_;
   std::deque<double> recent_;          ///< elapsed seconds at the last shapes
   std::optional<double> last_line_;    ///< elapsed seconds at the last line
+  std::optional<double> last_shape_;   ///< elapsed seconds at the last line of a shape
   std::optional<ProgressState> last_;  ///< shown last
   bool last_has_line_ = false;
   std::string bar_;  ///< the bar on the screen, empty if none

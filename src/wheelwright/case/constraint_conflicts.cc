@@ -109,6 +109,17 @@ void check_lengths(const Case& c, std::size_t i, Conflicts& found) {
   }
 }
 
+/// Strains are fractions.
+void check_strains(const Case& c, std::size_t i, Conflicts& found) {
+  constexpr double largest = 5;
+  const auto upper = upper_bound(c, i);
+  if (c.constraints[i].quantity != built_in("largest_strain") || !upper || upper->value < largest) return;
+  found.push_back({{upper->key},
+                   fmt::format("no wheel is strained by {:.0f} %", 100 * upper->value),
+                   fmt::format("strains are fractions: if {0:g} is in per cent, write {1:g}", upper->value,
+                               upper->value / 100)});
+}
+
 /// Upper bounds of temperatures that no shape can meet: the losses only warm the wheel, and the rim belongs
 /// to it.
 void check_temperature(const Case& c, std::size_t i, Conflicts& found) {
@@ -155,6 +166,7 @@ void constraint_conflicts(const Case& c, Conflicts& found) {
     check_quantity(c, i, found);
     check_bounds(c, i, found);
     check_lengths(c, i, found);
+    check_strains(c, i, found);
     check_temperature(c, i, found);
   }
   check_bounds_together(c, found);

@@ -100,7 +100,8 @@ void check_friction(const SingleLoad& single, Conflicts& found) {
            "use a smaller value, or more contact.friction"});
   };
   check(single.key(&Load::horizontal_force), load.horizontal_force, held, "N");
-  check(single.key(&Load::torque), load.torque, held * arm, "N m");
+  if (!has_large_strains(c))  // which refuse any torque
+    check(single.key(&Load::torque), load.torque, held * arm, "N m");
   check(single.key(&Load::lateral_force), load.lateral_force, held, "N");
   const double along_ground = std::hypot(load.horizontal_force, load.lateral_force);
   if (!load.travel && load.horizontal_force != 0 && load.lateral_force != 0 && along_ground >= held &&

@@ -570,7 +570,8 @@ void read_quantities(Reading& reading, const toml::table& root, const SectionArr
   for (std::size_t i = 0; array && i < list.size(); ++i)
     for (const BoundKey& key : bound(section.keys, list[i])) {
       const toml::node* node = (*array)[i].as_table()->get(key.name);
-      if (key.unit == unit_of_quantity && node)
+      const bool is_known = !is_faulty(reading, fmt::format("{}[{}].quantity", section.path(), i + 1));
+      if (key.unit == unit_of_quantity && node && is_known)
         read_value_of_quantity(reading, fmt::format("{}[{}].{}", section.path(), i + 1, key.name), *node, key,
                                kind(list[i].quantity), c.wheel);
     }

@@ -10,13 +10,13 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/run/results/making.h"
-#include "wheelwright/run/study/bound_warnings.h"
 #include "wheelwright/run/study/case_report.h"
 #include "wheelwright/run/study/checked_case.h"
 #include "wheelwright/run/study/feature_warnings.h"
 #include "wheelwright/run/study/filled_holes.h"
 #include "wheelwright/run/study/loose_material.h"
 #include "wheelwright/run/study/plane_comparison.h"
+#include "wheelwright/run/study/predicted_bounds.h"
 #include "wheelwright/run/study/predicted_deformation.h"
 #include "wheelwright/run/study/study.h"
 
@@ -95,11 +95,13 @@ class CheckCommand : public Subcommand {
     if (planes && *planes) checked.notes.push_back(comparison_text(c, **planes));
     const auto predicted = predictions(c);
     if (const std::string note = prediction_note(predicted); !note.empty()) checked.notes.push_back(note);
+    const PredictedBounds bounds = predicted_bounds(c);
+    if (!bounds.note.empty()) checked.notes.push_back(bounds.note);
     checked.warnings = warnings(c);
     warn(in_dimension_of(c, [&](auto dim) { return fitting_of_initial_shape<dim>(c); }));
     if (planes && *planes) warn(plane_warning(c, **planes));
     warn(prediction_warning(predicted));
-    for (const std::string& warning : bound_warnings(c)) warn(warning);
+    for (const std::string& warning : bounds.warnings) warn(warning);
     if (!measures) warn("walls and gaps were not measured: " + measures.failure().what);
     if (measures)
       for (const std::string& warning : feature_warnings(c, *measures)) warn(warning);

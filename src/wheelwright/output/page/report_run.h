@@ -48,7 +48,7 @@ std::optional<ShapeOutline> parse_outline_line(const std::string& line);
 struct SurfacePosition {
   double ground_azimuth;                         ///< as in PositionFields
   std::vector<std::vector<float>> displacement;  ///< [component][vertex] [m], body frame
-  std::vector<float> von_mises;                  ///< [Pa]
+  std::vector<float> von_mises;                  ///< as in MeshPosition [Pa]
   std::optional<ShownGround> ground = {};
 };
 

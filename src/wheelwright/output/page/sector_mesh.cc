@@ -141,7 +141,7 @@ MeshPosition on_mesh(const SectorMesh& mesh, const PositionFields<2>& fields) {
     position.y.push_back(u[1]);
   });
   for_each_point<stress_components<2>>(mesh, fields.lattice, fields.stress, [&](const auto& stress) {
-    position.von_mises.push_back(von_mises_of(stress));
+    position.von_mises.push_back(std::min(von_mises_of(stress), fields.von_mises.value));
   });
   return position;
 }

@@ -30,7 +30,7 @@ SectorMesh sector_mesh(const LevelSet<2>& psi, const RollingModel<2>& model);
 struct MeshPosition {
   double ground_azimuth;          ///< as in PositionFields
   std::vector<double> x, y;       ///< displacement [m], body frame
-  std::vector<double> von_mises;  ///< [Pa]
+  std::vector<double> von_mises;  ///< at most the material's peak, which nodes of slivers exceed [Pa]
   std::optional<ShownGround> ground = {};
 };
 

@@ -342,12 +342,26 @@ std::string largest_load_line(const RollingReport& report) {
                   : fmt::format("--loads {:.6g}:{:.6g}:5 narrows it down\n", end->carried, end->too_large));
 }
 
+/// Why a curve ends, in words for a title.
+std::string reason_text(FailureReason reason) {
+  switch (reason) {
+    case FailureReason::overload:
+      return "the load has a maximum";
+    case FailureReason::material_overlaps:
+      return "edges meet";
+    case FailureReason::not_positive_definite:
+      return "the wheel buckles";
+    default:
+      return to_string(reason);
+  }
+}
+
 /// The title of a plot over the loads.
 std::string title_over_loads(const RollingReport& report, const std::string& what) {
   const auto end = end_of_curve(report);
   if (!end) return what + " against load";
   return fmt::format("{} against load; ends between {:.6g} and {:.6g} N: {}", what, end->carried,
-                     end->too_large, to_string(end->failure.reason));
+                     end->too_large, reason_text(end->failure.reason));
 }
 
 std::string missing_lines(const RollingReport& report) {

@@ -86,12 +86,13 @@ std::string deformation_warning(const DeformationSize& size) {
       !size.edges_overlap)
     return "";
   const double share = share_of_small_load(size);
-  const std::string remedy =
+  std::string remedy =
       share < 1
           ? fmt::format(
                 "About {:.2g} % of the load would stay within that, or a material {:.2g} times as stiff.",
                 100 * share, 1 / share)
           : "A smaller load or a stiffer material helps.";
+  remedy += " In 2D, material.model = \"neo_hookean\" computes large deformation.";
   return fmt::format(
       "large deformation: strains reach {:.3g} %, the material turns by up to {:.2g} deg, the rim travels "
       "{:.3g} % of the ring's thickness, and linear theory errs by about {:.2g} % in travel and stiffness{}. "

@@ -184,11 +184,16 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary, co
 template <int dim>
 std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel) {
   const Case shown = with_levels_of_results(c);
+  const bool is_large = has_large_strains(c);
   std::vector<std::string> result{
-      fmt::format("The material is linear elastic: no creep, and the same when it is warm{}. Whether it "
+      fmt::format("The material is {}elastic: no creep, and the same when it is warm{}. Whether it "
                   "withstands the peak stress is not assessed.",
-                  has_fatigue_limit(c) ? "" : ", no fatigue")};
-  if (wheel.loaded)
+                  is_large ? "" : "linear ", has_fatigue_limit(c) ? "" : ", no fatigue")};
+  if (is_large)
+    result.push_back(
+        "Deformations are computed at their true size; edges of holes that meet are not in contact. How much "
+        "more load the wheel carries is not known: `wheelwright analyze` shows it with --loads.");
+  else if (wheel.loaded)
     result.push_back(fmt::format(
         "Deformations are taken as small: this makes an error of about {:.2g} % in travel and stiffness, "
         "estimated from the computed deformation.",

@@ -30,8 +30,10 @@ FieldPoints<3> vertices(const SurfaceMesh& surface, const SolvedShape<3>& solved
 }
 
 SurfacePosition on_points(const PositionFields<3>& fields, const FieldPoints<3>& points) {
+  std::vector<float> von_mises = points.values(von_mises_field(fields.stress))[0];
+  for (float& value : von_mises) value = std::min(value, static_cast<float>(fields.von_mises.value));
   return {fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
-          points.values(von_mises_field(fields.stress))[0], shown_ground(fields)};
+          std::move(von_mises), shown_ground(fields)};
 }
 
 std::string loaded_json(const SolvedShape<2>& solved, const PositionFields<2>& fields) {

@@ -150,9 +150,10 @@ std::string time_report(const Case& c) {
 }
 
 std::string time_at_large_deformation(const Case& c) {
-  return line("time", fmt::format("about {:.2g} s for one shape on one core, at large deformation; the first "
-                                  "one takes twice as long",
-                                  estimated_seconds_at_large_deformation(problem_size(c))));
+  return line("time",
+              fmt::format("about {:.2g} s for one shape on one core, at large deformation; the first "
+                          "one takes twice as long, and those near their largest load up to ten times",
+                          estimated_seconds_at_large_deformation(problem_size(c))));
 }
 
 std::string drawing_report(const Case& c) {

@@ -6,6 +6,7 @@
 
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/layers.h"
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/run/study/study.h"
 
@@ -53,9 +54,14 @@ std::string warning(const PredictedDeformation& predicted) {
   const auto& size = predicted.size;
   const std::string text = size ? deformation_warning(*size) : size.failure().detail;
   if (text.empty()) return "";
-  return fmt::format("{}the initial shape on {}: {}",
+  const bool is_sought = !size && size.failure().reason == FailureReason::newton_stalled;
+  const std::string hint =
+      is_sought ? "; the load may be far more than the wheel carries, and `wheelwright analyze` with --loads "
+                  "from a tenth of it on shows how much that is"
+                : "";
+  return fmt::format("{}the initial shape on {}: {}{}",
                      predicted.load_case.empty() ? "" : fmt::format("load case {}: ", predicted.load_case),
-                     predicted.grid, text);
+                     predicted.grid, text, hint);
 }
 
 /// Spokes of a few cells that bend and buckle are too stiff on a coarse grid.

@@ -1,9 +1,10 @@
-#include "wheelwright/run/study/bound_warnings.h"
+#include "wheelwright/run/study/predicted_bounds.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/study/bounded_functions.h"
@@ -29,19 +30,22 @@ std::string warning(const BoundState& bound, const Quantity& quantity, const Whe
 
 }  // namespace
 
-std::vector<std::string> bound_warnings(const Case& c) {
+PredictedBounds predicted_bounds(const Case& c) {
   if (c.wheel.dimension != 2 || c.constraints.empty()) return {};
   const auto study = make_study<2>(on_predicting_grid(c));
   if (!study) return {};
   const auto evaluated = evaluate_of(*study)({study->initial, nullptr}, nullptr);
   if (!evaluated) return {};
-  std::vector<std::string> result;
+  PredictedBounds result;
   for (const BoundState& bound : bound_states(evaluated->evaluation, {})) {
     const Quantity& quantity = study->function(bound.name).quantity;
     const double ratio = bound.bound / bound.value;
     if (is_distinguishable(quantity) && ratio > 0 &&
         std::abs(std::log(ratio / c.wheel.width)) < std::abs(std::log(ratio)))
-      result.push_back(warning(bound, quantity, c.wheel));
+      result.warnings.push_back(warning(bound, quantity, c.wheel));
+    if (!bound.is_kept())
+      result.note += fmt::format("  {:<22}{}, on {}\n", "initial shape", text(bound, study->grid()),
+                                 grid_text(study->source));
   }
   return result;
 }

@@ -1,4 +1,4 @@
-#include "wheelwright/run/study/bound_warnings.h"
+#include "wheelwright/run/study/predicted_bounds.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ std::vector<std::string> warnings_with(const std::string& constraint) {
           constraint,
       "wheel.toml");
   EXPECT_TRUE(read.value) << (read.problems.empty() ? "" : read.problems.front().text());
-  return bound_warnings(read.value.value());
+  return predicted_bounds(read.value.value()).warnings;
 }
 
 /// The wheel has 6300 N/mm: 5.3e7 N/m per metre of width, and 6.3e6 N/m on its whole width of 0.12 m.
