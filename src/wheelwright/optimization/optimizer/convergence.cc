@@ -56,7 +56,8 @@ bool predicts_gain(const OptimizerOptions& options, const OptimizationState<dim>
 template <int dim>
 bool has_lost_its_model(const OptimizerOptions& options, const OptimizationState<dim>& state) {
   constexpr double small = 0.1;
-  if (options.method == Method::descent || options.tolerance <= 0 || state.step >= small * options.step)
+  if (options.method == Method::descent || options.tolerance <= 0 || state.step >= small * options.step ||
+      bound_constraints(state.evaluation).empty())
     return false;
   const AcceptedShape& first = state.history.front();
   return first.violation > feasible_violation ||

@@ -25,8 +25,9 @@ bool has_converged(const OptimizerOptions& options, const OptimizationState<dim>
 template <int dim>
 bool predicts_gain(const OptimizerOptions& options, const OptimizationState<dim>& state, double decrease);
 
-/// Whether a search that gains no more has only its small steps to blame, which a model from far away made
-/// so: it is repeated with full steps and without that model, as long as that gains more than the tolerance.
+/// Whether a search with bounds that gains no more has only its small steps to blame: bounds that curve made
+/// them small far from here. It is repeated with full steps and without the model of the old ones, as long as
+/// that gains more than the tolerance.
 template <int dim>
 bool has_lost_its_model(const OptimizerOptions& options, const OptimizationState<dim>& state);
 
