@@ -599,6 +599,30 @@ TEST_F(Exploration, IsTheSameForAnyNumberOfThreadsAndAfterAStop) {
       expect_equal_results(entry.path(), folder() / "stopped" / "designs" / entry.path().filename());
 }
 
+// Each design is left at every shape, and continued by another call.
+TEST_F(Exploration, OfDesignsThatPauseAtEveryShapeIsTheSame) {
+  const auto once = explored(folder() / "one", {.threads = 1});
+  const fs::path place = folder() / "pauses";
+  std::map<std::string, std::vector<int>> shapes;
+  RunSettings settings{.threads = 1};
+  settings.pauses = [&](const Design& design, int shape) {
+    shapes[design.name].push_back(shape);
+    return true;
+  };
+  for (int n_before = -1, n = 0; n > n_before;) {
+    n_before = n;
+    explored(place, settings);
+    n = 0;
+    for (const auto& [name, of_design] : shapes) n += static_cast<int>(of_design.size());
+  }
+  EXPECT_EQ(explored(place, {.threads = 1}), once);
+  EXPECT_EQ(shapes.size(), 4u);
+  for (const auto& [name, of_design] : shapes)
+    for (std::size_t k = 1; k < of_design.size(); ++k) EXPECT_EQ(of_design[k], of_design[k - 1] + 1);
+  for (const auto& entry : fs::directory_iterator(folder() / "one" / "designs"))
+    if (entry.is_directory()) expect_equal_results(entry.path(), place / "designs" / entry.path().filename());
+}
+
 RatedDesign full_design(const std::string& name, std::map<std::string, double> numbers,
                         double violation = 0) {
   RatedDesign one{{name, "start", {}, {}}, {Progression::full, "converged", 3}};

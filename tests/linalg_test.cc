@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
+#include <stdexcept>
 
 #include "wheelwright/linalg/column_basis.h"
 #include "wheelwright/linalg/cyclic_chain.h"
@@ -96,6 +98,43 @@ TEST_F(CondensedSquare, SolvesAsADenseCholesky) {
   cholesky_solve(dense, expected);
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < n * n; ++k) EXPECT_NEAR(x(i, k), expected(order_[k], i), 1e-13);
+}
+
+/// The longest chain of a matrix of diagonal 3 with `couplings`, as a share of its flops.
+double longest_chain(int n, const std::vector<std::pair<int, int>>& couplings, int n_trailing) {
+  SparseSymmetric matrix{.size = n, .column_start = {0}, .rows = {}, .values = {}};
+  for (int j = 0; j < n; ++j) {
+    matrix.rows.push_back(j);
+    matrix.values.push_back(3);
+    for (const auto& [column, row] : couplings)
+      if (column == j) {
+        matrix.rows.push_back(row);
+        matrix.values.push_back(-1);
+      }
+    matrix.column_start.push_back(static_cast<int>(matrix.rows.size()));
+  }
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  const auto factor = PartialCholesky::factor(matrix, 1, order, n_trailing);
+  if (!factor) throw std::runtime_error("not positive definite");
+  return factor->longest_chain_flops() / factor->factor_flops();
+}
+
+// One path is all of a tridiagonal matrix, and a third of three that meet in a trailing unknown. Where two
+// paths meet in a third, and so do two others, a chain is two of six paths.
+TEST(PartialCholeskyTest, TheLongestChainIsThatOfTheTree) {
+  constexpr int n = 60;
+  std::vector<std::pair<int, int>> chain, three, tree;
+  for (int k = 0; k < n; ++k) chain.emplace_back(k, k + 1);
+  for (int k = 0; k < 3 * n; ++k) three.emplace_back(k, k % n == n - 1 ? 3 * n : k + 1);
+  for (int k = 0; k < 6 * n; ++k) {
+    const int path = k / n, end = path < 2 ? 4 * n : path < 4 ? 5 * n : 6 * n;
+    tree.emplace_back(k, k % n == n - 1 ? end : k + 1);
+  }
+  EXPECT_NEAR(longest_chain(n + 1, chain, 1), 1, 1e-12);
+  constexpr double of_supernodes = 0.02;  // which are not divided in quite the same way
+  EXPECT_NEAR(longest_chain(3 * n + 1, three, 1), 1.0 / 3, of_supernodes);
+  EXPECT_NEAR(longest_chain(6 * n + 1, tree, 1), 1.0 / 3, of_supernodes);
 }
 
 TEST_F(CondensedSquare, PartialSweepAgreesWithTheFullOne) {

@@ -1,10 +1,14 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <set>
+
 #include "computed.h"
 #include "held_case.h"
 #include "module.h"
 #include "wheelwright/base/available_memory.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/base/stopwatch.h"
 #include "wheelwright/design/explore/costs.h"
 #include "wheelwright/design/explore/exploration.h"
 #include "wheelwright/design/explore/sweep.h"
@@ -47,6 +51,68 @@ void run_plan(const std::string& folder, const DesignPlan& plan, int threads) {
     run_planned(folder, plan, settings);
   }
   signals.rethrow();
+}
+
+constexpr std::pair<Progression, const char*> progression_names[] = {{Progression::preview, "preview"},
+                                                                     {Progression::full, "full"}};
+
+std::string name_of(Progression progression) {
+  return std::ranges::find(progression_names, progression, &std::pair<Progression, const char*>::first)
+      ->second;
+}
+
+Progression progression_called(const std::string& name) {
+  for (const auto& [progression, called] : progression_names)
+    if (name == called) return progression;
+  throw py::value_error("no progression " + name);
+}
+
+const Design& design_called(const DesignPlan& plan, const std::string& name) {
+  const auto found = std::ranges::find(plan.designs, name, &Design::name);
+  if (found == plan.designs.end()) throw py::value_error("no design " + name + " in the plan");
+  return *found;
+}
+
+/// The designs that are run next according to the results in the folder, and how far; without those that are
+/// given up.
+std::pair<std::string, std::vector<std::string>> due(
+    const std::string& folder, const DesignPlan& plan,
+    const std::set<std::pair<std::string, std::string>>& given_up) {
+  return without_gil([&] {
+    const Standing now = standing(folder, plan, [&](const Design& design, Progression progression) {
+      return given_up.contains({design.name, name_of(progression)});
+    });
+    std::vector<std::string> names;
+    for (const Design& one : now.due) names.push_back(one.name);
+    return std::pair(name_of(now.progression), names);
+  });
+}
+
+/// Runs one design on so many threads until its result is there, or to the first accepted shape after
+/// `seconds`, where it is saved. Returns whether it is over, and its newest shape, if it has accepted one.
+std::pair<bool, std::optional<int>> run_piece(const std::string& folder, const DesignPlan& plan,
+                                              const std::string& name, const std::string& progression,
+                                              double seconds, int threads) {
+  Signals signals;
+  const Design& design = design_called(plan, name);
+  bool pauses = false;
+  std::optional<int> newest;
+  const Progression wanted = progression_called(progression);
+  {
+    const Computing computing;
+    const ThreadLimit limit(threads);
+    const Stopwatch watch;
+    RunSettings settings;
+    settings.stop_requested = [&signals] { return signals.raised(); };
+    settings.pauses = [&](const Design&, int shape) {
+      newest = shape;
+      if (watch.seconds() < seconds) return false;
+      return pauses = true;
+    };
+    run_designs(folder, {design}, wanted, settings);
+  }
+  signals.rethrow();
+  return {!pauses || known_result(folder, design, wanted), newest};
 }
 
 /// Writes tables, picture and page of the results that are there; returns the content of NAME.json.
@@ -97,6 +163,13 @@ void write_new_plan(const std::string& folder, const DesignPlan& plan) {
   });
 }
 
+/// The right to work on a design, while the object lives.
+FileLock lock_design(const std::string& folder, const DesignPlan& plan, const std::string& name) {
+  auto lock = FileLock::acquire(lock_of_design(folder, design_called(plan, name)));
+  if (!lock) raise("RunError", "folder_in_use", to_string(lock.failure()) + " is running design " + name);
+  return *std::move(lock);
+}
+
 }  // namespace
 
 void bind_designs(py::module_& m) {
@@ -106,7 +179,11 @@ void bind_designs(py::module_& m) {
   m.def("plan_in", &plan_in);
   m.def("write_plan", &write_new_plan);
   m.def("run_plan", &run_plan);
+  m.def("due", &due);
+  m.def("run_piece", &run_piece);
   m.def("collect", &collect);
+  py::class_<FileLock>(m, "DesignLock");
+  m.def("lock_design", &lock_design);
 }
 
 }  // namespace wheelwright::python

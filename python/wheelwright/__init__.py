@@ -17,6 +17,7 @@ if "OPENBLAS_CORETYPE" not in _os.environ and (_kernels := _fastest_kernels()):
     _os.environ["OPENBLAS_CORETYPE"] = _kernels
 
 from . import _core
+from ._pieces import DesignProgress
 from .case import Case, presets
 from .designs import explore, sweep
 from .errors import (
@@ -57,6 +58,7 @@ __all__ = [
     "Cell",
     "ComputationError",
     "Contact",
+    "DesignProgress",
     "EdgeDensity",
     "Error",
     "Evaluation",

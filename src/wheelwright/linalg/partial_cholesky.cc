@@ -71,6 +71,9 @@ class SymbolicFactor {
   cholmod_factor* factor_ = nullptr;
 };
 
+/// Subtrees of the elimination tree with a smaller share of the work are eliminated by one thread.
+constexpr double worth_sharing = 0.02;
+
 /// Number of vectors that a sweep processes together.
 constexpr int sweep_block = 24;
 
@@ -131,7 +134,7 @@ class PartialCholesky::Numbers {
         updates_(factor.supernodes_.size()) {
     for (size_t s = 0; s < children_.size(); ++s) {
       const Supernode& node = factor.supernodes_[s];
-      work_[s] += double(node.n_columns) * node.stride() * node.stride();
+      work_[s] += node.work();
       (node.parent < 0 ? roots_ : children_[node.parent]).push_back(static_cast<int>(s));
       (node.parent < 0 ? total_work_ : work_[node.parent]) += work_[s];
     }
@@ -186,7 +189,6 @@ class PartialCholesky::Numbers {
   bool eliminate_in_parallel(const std::vector<int>& subtrees) {
     std::vector<char> is_definite(subtrees.size());
     parallel_for(static_cast<int>(subtrees.size()), [&](int i) {
-      constexpr double worth_sharing = 0.02;
       const int s = subtrees[i];
       std::vector<int> place(factor_.size());
       is_definite[i] = work_[s] < worth_sharing * total_work_
@@ -259,13 +261,39 @@ Expected<PartialCholesky> PartialCholesky::factor(const SparseSymmetric& matrix,
   return factor;
 }
 
+double PartialCholesky::Supernode::flops() const {
+  const double n = n_columns, m = n_below;
+  return n * n * n / 3 + m * n * n + m * m * n;
+}
+
 double PartialCholesky::factor_flops() const {
   double flops = 0;
-  for (const Supernode& node : supernodes_) {
-    const double n = node.n_columns, m = node.n_below;
-    flops += n * n * n / 3 + m * n * n + m * m * n;
-  }
+  for (const Supernode& node : supernodes_) flops += node.flops();
   return flops;
+}
+
+double PartialCholesky::longest_chain_flops() const {
+  const size_t n = supernodes_.size();
+  std::vector<double> work(n), flops(n), chain(n);  // of subtrees; of the chains below their roots
+  double total_work = 0, longest = 0;
+  for (size_t s = 0; s < n; ++s) {
+    const Supernode& node = supernodes_[s];
+    work[s] += node.work();
+    flops[s] += node.flops();
+    if (node.parent >= 0) {
+      work[node.parent] += work[s];
+      flops[node.parent] += flops[s];
+    } else {
+      total_work += work[s];
+    }
+  }
+  for (size_t s = 0; s < n; ++s) {
+    const Supernode& node = supernodes_[s];
+    chain[s] = work[s] < worth_sharing * total_work ? flops[s] : chain[s] + node.flops();
+    double& above = node.parent >= 0 ? chain[node.parent] : longest;
+    above = std::max(above, chain[s]);
+  }
+  return longest;
 }
 
 PartialCholesky::Sweep PartialCholesky::sweep_through(const std::vector<char>& marked) const {

@@ -32,6 +32,9 @@ class PartialCholesky {
   const Matrix& schur() const { return schur_; }  ///< both triangles; empty once it is released
   Matrix release_schur() { return std::exchange(schur_, {}); }
   double factor_flops() const;  ///< flops of the numerical factorization
+  /// Those of them that follow each other on one thread, however many threads there are: of the supernodes on
+  /// the most expensive path of the elimination tree, and of the small subtree where it begins.
+  double longest_chain_flops() const;
 
   /// The part of the factor that a sweep visits: ascending supernodes, each with all supernodes that it
   /// depends on.
@@ -63,6 +66,8 @@ class PartialCholesky {
     size_t values;         ///< start of the columns of L in values_: column-major, diagonal block on top
     int parent;            ///< in the elimination tree; -1 when all rows below belong to trailing unknowns
     int stride() const { return n_columns + n_below; }
+    double flops() const;                                                    ///< of its elimination
+    double work() const { return double(n_columns) * stride() * stride(); }  ///< about its time
   };
   class Numbers;
 

@@ -78,6 +78,29 @@ class EndOfPreview : public Observer<dim> {
   bool has_changed_grid_ = false, is_over_ = false;
 };
 
+/// Saves and ends a run at an accepted shape, on request, without its results, which the run that continues
+/// it writes.
+template <int dim>
+class Pause : public Observer<dim> {
+ public:
+  Pause(std::function<bool(int)> is_requested, CommandQueue& commands)
+      : is_requested_(std::move(is_requested)), commands_(commands) {}
+
+  void operator()(const Event<dim>& event, const RunView<dim>&) override {
+    const auto* done = std::get_if<TrialDone<dim>>(&event);
+    if (!done || done->trial.verdict != Verdict::accepted || is_over_) return;
+    is_over_ = is_requested_(done->state.iteration);
+    if (!is_over_) return;
+    commands_.push(Stop{});
+    commands_.push(Stop{});  // the second one while the results of the last shape are computed
+  }
+
+ private:
+  std::function<bool(int)> is_requested_;
+  CommandQueue& commands_;
+  bool is_over_ = false;
+};
+
 /// The largest violation of a summary's bounds, as a fraction of the bound.
 double largest_violation(const nlohmann::json& bounds) {
   double largest = 0;
@@ -137,18 +160,20 @@ Expected<Run<dim>, NotBegun<dim>> begun_or_resumed(const Design& design, const f
 
 template <int dim>
 DesignRun run_design(const Design& design, const fs::path& folder, Progression progression,
-                     const std::function<bool()>& stop_requested) {
+                     const RunSettings& settings) {
   DesignResult result{progression, ""};
   auto run = begun_or_resumed<dim>(design, folder);
   if (run) {
     CommandQueue commands;
-    commands.add_source(StopOnce(stop_requested));
+    commands.add_source(StopOnce(settings.stop_requested));
     const EndOfPreview<dim>* end = nullptr;
     if (progression == Progression::preview) {
       auto observer = std::make_unique<EndOfPreview<dim>>(commands);
       end = observer.get();
       run->add(std::move(observer));
     }
+    run->add(std::make_unique<Pause<dim>>(
+        [&](int shape) { return settings.pauses(design, shape) && !(end && end->is_over()); }, commands));
     const RunResult<dim> ended = run->execute(commands);
     const bool is_end_of_preview = end && end->is_over();
     if (ended.reason == StopReason::stop_requested && !is_end_of_preview) return {};
@@ -183,7 +208,7 @@ class SharedRuns {
     if (settings_.stop_requested() || !settings_.may_begin()) return {};
     const fs::path place = folder_ / folder_of_designs;
     const DesignRun run = in_dimension_of(design.source, [&](auto dim) {
-      return run_design<dim>(design, place / design.name, progression_, settings_.stop_requested);
+      return run_design<dim>(design, place / design.name, progression_, settings_);
     });
     if (!run.fault.empty()) leave_out(i, run.fault);
     if (!run.result) return run.holder;

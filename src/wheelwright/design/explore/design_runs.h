@@ -22,6 +22,10 @@ struct RunSettings {
   std::function<bool()> stop_requested = [] { return false; };
   /// Called before each design: whether there is time for another one.
   std::function<bool()> may_begin = [] { return true; };
+  /// Called with the number of each accepted shape of a design, by several threads: whether to save the
+  /// design and leave it at this shape. Run again, it continues from there. A preview that ends at this shape
+  /// ends.
+  std::function<bool(const Design&, int)> pauses = [](const Design&, int) { return false; };
   /// Called with each result, by one thread at a time.
   std::function<void(const Design&, const DesignResult&)> done = [](const Design&, const DesignResult&) {};
   /// Called several times a second for each design that another process runs, by several threads: whether to

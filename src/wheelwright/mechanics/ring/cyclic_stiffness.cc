@@ -71,6 +71,15 @@ InterfaceRoute best_route(const BoundarySymmetry& symmetry, const SectorHarmonic
                                                              : InterfaceRoute::all_unknowns;
 }
 
+/// How many compliances of an outer line with n unknowns exist at a time. Independent of the number of
+/// threads, so that their sums are too.
+int harmonics_together(int n, int n_harmonics) {
+  constexpr double memory = 256e6;
+  constexpr int fewest = 4;
+  const double most = memory / (sizeof(std::complex<double>) * double(n) * n);
+  return static_cast<int>(std::clamp<double>(most, std::min(fewest, n_harmonics), n_harmonics));
+}
+
 std::shared_ptr<const BoundarySymmetry> without_symmetry(int n_interface, int n_outer) {
   auto symmetry = std::make_shared<BoundarySymmetry>();
   symmetry->n_interface = n_interface;
@@ -212,8 +221,8 @@ typename CyclicStiffness<dim>::OfHarmonics CyclicStiffness<dim>::reduced_to_mode
     CoupledSectors coupled, const Boundary& boundary, std::shared_ptr<const BoundarySymmetry> symmetry,
     InterfaceRoute route) {
   std::optional<InterfaceModes> modes;
-  if (route == InterfaceRoute::strong_modes && coupled.farthest == 1)
-    modes = InterfaceModes::find(coupled.by_difference[1], coupled.by_difference[2], boundary.n_interface);
+  if (route == InterfaceRoute::strong_modes && coupled.farthest() == 1)
+    modes = InterfaceModes::find(coupled.matrix(0), coupled.matrix(1), boundary.n_interface);
   if (!modes) return {std::move(coupled), std::move(symmetry), {}};
   CoupledSectors of_modes(modes->release_stiffness());
   auto without = without_symmetry(modes->n_strong(), boundary.n_outer);
@@ -228,11 +237,10 @@ Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::factor_harmonics(
   std::vector<std::optional<HarmonicFactor>> factors(harmonics.n_harmonics());
   parallel_for(harmonics.n_harmonics(), [&](int h) {
     const ComplexMatrix on_outer_line = outer_stiffness(h);
-    std::vector<std::complex<double>> phases;
-    for (int d = -coupled.farthest; d <= coupled.farthest; ++d) phases.push_back(harmonics.phase(h, d));
+    std::vector<std::complex<double>> twice;
+    for (int d = 1; d <= coupled.farthest(); ++d) twice.push_back(2.0 * harmonics.phase(h, d));
     const auto entry = [&](int i, int j) {
-      std::complex<double> sum = 0;
-      for (size_t d = 0; d < phases.size(); ++d) sum += phases[d] * coupled.by_difference[d](i, j);
+      std::complex<double> sum = coupled.sum(twice, i, j);
       if (i >= n_first && j >= n_first) sum += on_outer_line(i - n_first, j - n_first);
       return sum;
     };
@@ -253,26 +261,83 @@ Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::factor_harmonics(
   return result;
 }
 
-/// The condensed stiffness of a sector, split by the number of sectors that the second unknown is ahead of
-/// the first.
 template <int dim>
 CyclicStiffness<dim>::CoupledSectors::CoupledSectors(const std::vector<Trailing>& trailing,
                                                      const Matrix& schur, int n_boundary) {
+  int farthest = 0;
   for (const Trailing& t : trailing) farthest = std::max(farthest, t.shift);
-  by_difference.assign(2 * farthest + 1, Matrix(n_boundary, n_boundary));
+  resize(n_boundary, farthest);
   for (int j = 0; j < schur.columns(); ++j)
     for (int i = 0; i < schur.rows(); ++i)
-      by_difference[trailing[j].shift - trailing[i].shift + farthest](trailing[i].boundary,
-                                                                      trailing[j].boundary) += schur(i, j);
+      add(trailing[j].shift - trailing[i].shift, trailing[i].boundary, trailing[j].boundary, schur(i, j));
 }
 
 template <int dim>
-CyclicStiffness<dim>::CoupledSectors::CoupledSectors(std::vector<Matrix> by_difference_)
-    : farthest(static_cast<int>(by_difference_.size()) / 2), by_difference(std::move(by_difference_)) {}
+CyclicStiffness<dim>::CoupledSectors::CoupledSectors(const std::vector<Matrix>& by_difference) {
+  const int farthest = static_cast<int>(by_difference.size()) / 2;
+  resize(by_difference.front().rows(), farthest);
+  for (int d = 0; d <= farthest; ++d)
+    for (int j = 0; j < n_; ++j)
+      for (int i = 0; i < n_; ++i) add(d, i, j, by_difference[farthest + d](i, j));
+}
+
+template <int dim>
+void CyclicStiffness<dim>::CoupledSectors::resize(int n, int farthest) {
+  n_ = n;
+  const size_t size = size_t(n) * (n + 1) / 2;
+  own_.assign(size, 0.0);
+  ahead_.assign(farthest, {own_, own_});
+}
+
+/// Of entries that the matrices do not keep, for negative differences and above the diagonal, the images are
+/// added too.
+template <int dim>
+void CyclicStiffness<dim>::CoupledSectors::add(int difference, int i, int j, double value) {
+  if (difference < 0) return;
+  if (difference == 0) {
+    if (i >= j) own_[place(i, j)] += value;
+    return;
+  }
+  Ahead& ahead = ahead_[difference - 1];
+  ahead.symmetric[place(i, j)] += i == j ? value : 0.5 * value;
+  if (i != j) ahead.antisymmetric[place(i, j)] += i > j ? 0.5 * value : -0.5 * value;
+}
+
+/// Of an entry or its image below the diagonal.
+template <int dim>
+size_t CyclicStiffness<dim>::CoupledSectors::place(int i, int j) const {
+  const auto [column, row] = std::minmax(i, j);
+  return size_t(column) * (2 * size_t(n_) - column - 1) / 2 + row;
+}
 
 template <int dim>
 double CyclicStiffness<dim>::CoupledSectors::entry(int difference, int i, int j) const {
-  return std::abs(difference) > farthest ? 0 : by_difference[difference + farthest](i, j);
+  if (std::abs(difference) > farthest()) return 0;
+  if (difference < 0) return entry(-difference, j, i);
+  if (difference == 0) return own_[place(i, j)];
+  const Ahead& ahead = ahead_[difference - 1];
+  const double turned = ahead.antisymmetric[place(i, j)];
+  return ahead.symmetric[place(i, j)] + (i >= j ? turned : -turned);
+}
+
+template <int dim>
+Matrix CyclicStiffness<dim>::CoupledSectors::matrix(int difference) const {
+  auto result = Matrix::unfilled(n_, n_);
+  for (int j = 0; j < n_; ++j)
+    for (int i = 0; i < n_; ++i) result(i, j) = entry(difference, i, j);
+  return result;
+}
+
+template <int dim>
+std::complex<double> CyclicStiffness<dim>::CoupledSectors::sum(const std::vector<std::complex<double>>& twice,
+                                                               int i, int j) const {
+  const size_t k = place(i, j);
+  double real = own_[k], imaginary = 0;
+  for (size_t d = 0; d < ahead_.size(); ++d) {
+    real += twice[d].real() * ahead_[d].symmetric[k];
+    imaginary += twice[d].imag() * ahead_[d].antisymmetric[k];
+  }
+  return {real, i >= j ? imaginary : -imaginary};
 }
 
 /// Whether image(difference, i, j) is entry(difference, i, j), up to what rounding leaves of their
@@ -281,12 +346,11 @@ template <int dim>
 template <class Image>
 bool CyclicStiffness<dim>::CoupledSectors::equals(Image image) const {
   constexpr double rounding = 1e-10;
-  const int n = by_difference.front().rows();
   std::vector<double> scale;
-  for (int i = 0; i < n; ++i) scale.push_back(std::sqrt(std::abs(entry(0, i, i))));
-  for (int d = 0; d <= farthest; ++d)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n_; ++i) scale.push_back(std::sqrt(std::abs(entry(0, i, i))));
+  for (int d = 0; d <= farthest(); ++d)
+    for (int j = 0; j < n_; ++j)
+      for (int i = 0; i < n_; ++i)
         if (!(std::abs(entry(d, i, j) - image(d, i, j)) <= rounding * scale[i] * scale[j])) return false;
   return true;
 }
@@ -347,41 +411,51 @@ Matrix CyclicStiffness<dim>::outer_displacements(const Matrix& condensed_loads) 
 }
 
 template <int dim>
-std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest) const {
+std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest,
+                                                           std::optional<int> wanted_together) const {
   const int n = n_sectors(), n_harmonics = harmonics_.n_harmonics();
   std::vector<int> needed;
   for (int ahead = 0; ahead < n; ++ahead)
     if (std::min(ahead, n - ahead) <= farthest) needed.push_back(ahead);
   const int n_needed = static_cast<int>(needed.size());
   std::vector<Matrix> by_sector(n);
-  for (const int ahead : needed) by_sector[ahead] = Matrix::unfilled(n_outer_, n_outer_);
-  std::vector<ComplexMatrix> by_harmonic(n_harmonics);
-  parallel_for(n_harmonics, [&](int h) { by_harmonic[h] = harmonic_factors_[h].outer_compliance(); });
+  for (const int ahead : needed) by_sector[ahead] = Matrix(n_outer_, n_outer_);
 
-  // One column per harmonic, real parts and then imaginary ones, times the phases of every sector.
-  Matrix phases(2 * n_harmonics, n_needed);
-  for (int k = 0; k < n_needed; ++k)
-    for (int h = 0; h < n_harmonics; ++h) {
-      const std::complex<double> phase =
-          (h == 0 || 2 * h == n ? 1.0 : 2.0) / n * harmonics_.phase(h, needed[k]);
-      phases(h, k) = phase.real();
-      phases(n_harmonics + h, k) = -phase.imag();
-    }
-  constexpr int together = 1024;
-  const size_t n_entries = size_t(n_outer_) * n_outer_;
-  parallel_for(static_cast<int>((n_entries + together - 1) / together), [&](int part) {
-    const size_t first = size_t(part) * together;
-    const int size = static_cast<int>(std::min<size_t>(together, n_entries - first));
-    auto entries = Matrix::unfilled(size, 2 * n_harmonics);
-    for (int h = 0; h < n_harmonics; ++h)
-      for (int k = 0; k < size; ++k) {
-        const std::complex<double> entry = by_harmonic[h].entries()[first + k];
-        entries(k, h) = entry.real();
-        entries(k, n_harmonics + h) = entry.imag();
+  // One column per harmonic of a batch, real parts and then imaginary ones, times the phases of every sector.
+  const int together = wanted_together.value_or(harmonics_together(n_outer_, n_harmonics));
+  for (int first_harmonic = 0; first_harmonic < n_harmonics; first_harmonic += together) {
+    const int n_batch = std::min(together, n_harmonics - first_harmonic);
+    std::vector<ComplexMatrix> by_harmonic(n_batch);
+    parallel_for(n_batch,
+                 [&](int k) { by_harmonic[k] = harmonic_factors_[first_harmonic + k].outer_compliance(); });
+    Matrix phases(2 * n_batch, n_needed);
+    for (int k = 0; k < n_needed; ++k)
+      for (int b = 0; b < n_batch; ++b) {
+        const int h = first_harmonic + b;
+        const std::complex<double> phase =
+            (h == 0 || 2 * h == n ? 1.0 : 2.0) / n * harmonics_.phase(h, needed[k]);
+        phases(b, k) = phase.real();
+        phases(n_batch + b, k) = -phase.imag();
       }
-    const Matrix sums = product(entries, Op::none, phases, Op::none);
-    for (int k = 0; k < n_needed; ++k) std::copy_n(sums.column(k), size, by_sector[needed[k]].data() + first);
-  });
+    constexpr int entries_together = 1024;
+    const size_t n_entries = size_t(n_outer_) * n_outer_;
+    parallel_for(static_cast<int>((n_entries + entries_together - 1) / entries_together), [&](int part) {
+      const size_t first = size_t(part) * entries_together;
+      const int size = static_cast<int>(std::min<size_t>(entries_together, n_entries - first));
+      auto entries = Matrix::unfilled(size, 2 * n_batch);
+      for (int b = 0; b < n_batch; ++b)
+        for (int k = 0; k < size; ++k) {
+          const std::complex<double> entry = by_harmonic[b].entries()[first + k];
+          entries(k, b) = entry.real();
+          entries(k, n_batch + b) = entry.imag();
+        }
+      const Matrix sums = product(entries, Op::none, phases, Op::none);
+      for (int k = 0; k < n_needed; ++k) {
+        double* to = by_sector[needed[k]].data() + first;
+        for (int i = 0; i < size; ++i) to[i] += sums.column(k)[i];
+      }
+    });
+  }
   return by_sector;
 }
 

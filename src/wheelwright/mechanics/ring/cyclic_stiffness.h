@@ -85,8 +85,9 @@ class CyclicStiffness {
 
   /// The same as matrices: displacements of the outer line of a sector for unit loads on that of another.
   /// Place `ahead` holds them for a sector `ahead` sectors farther on, modulo n_sectors(); those that are
-  /// farther away than `farthest` in both directions are empty.
-  std::vector<Matrix> outer_compliance(int farthest) const;
+  /// farther away than `farthest` in both directions are empty. `together`: of how many harmonics compliances
+  /// exist at a time; by default at least four, and as many as take a quarter of a gigabyte.
+  std::vector<Matrix> outer_compliance(int farthest, std::optional<int> together = {}) const;
 
   /// Boundary displacements (n_boundary x load cases) from those of the outer line and the interface loads
   /// returned by eliminate_interface().
@@ -100,17 +101,36 @@ class CyclicStiffness {
     int boundary;  ///< index among the boundary unknowns
     int shift;     ///< sectors ahead
   };
-  struct CoupledSectors {
+  /// The condensed stiffness of a sector, split by the number of sectors that the second unknown is ahead of
+  /// the first. That for -d is the transpose of that for d, which is kept as symmetric and antisymmetric
+  /// parts: lower triangles, column by column.
+  class CoupledSectors {
+   public:
     CoupledSectors(const std::vector<Trailing>& trailing, const Matrix& schur, int n_boundary);
-    explicit CoupledSectors(std::vector<Matrix> by_difference);
+    /// `by_difference`: from -farthest to farthest.
+    explicit CoupledSectors(const std::vector<Matrix>& by_difference);
+
+    int farthest() const { return static_cast<int>(ahead_.size()); }  ///< sectors ahead
     double entry(int difference, int i, int j) const;
-    template <class Image>
-    bool equals(Image image) const;
+    Matrix matrix(int difference) const;
+    /// The entry of the sum of all differences d, each with its phase w^d. `twice`: 2 w, 2 w^2, ...
+    std::complex<double> sum(const std::vector<std::complex<double>>& twice, int i, int j) const;
     bool commute_with_azimuth(const BoundaryMirror& mirror) const;
     bool commute_with_width(const BoundaryMirror& mirror) const;
 
-    int farthest = 0;                   ///< sectors ahead
-    std::vector<Matrix> by_difference;  ///< from -farthest to farthest
+   private:
+    struct Ahead {
+      std::vector<double> symmetric, antisymmetric;
+    };
+    void resize(int n, int farthest);
+    void add(int difference, int i, int j, double value);
+    size_t place(int i, int j) const;
+    template <class Image>
+    bool equals(Image image) const;
+
+    int n_ = 0;
+    std::vector<double> own_;   ///< difference 0
+    std::vector<Ahead> ahead_;  ///< differences 1, 2, ...
   };
 
   // The stages of factor(), each made from those before it.

@@ -125,15 +125,20 @@ Matrix outer_compliance(const std::vector<Matrix>& by_sector, int per_column, in
 
 /// The displacements of the outer line in `n_to` columns of the ring from `first_to` on for loads on columns
 /// from `first_from` on. The whole compliance between them would take most of the memory of a shape in 3D.
+/// The sectors of the result are shared among the threads.
 Matrix outer_displacements(const std::vector<Matrix>& by_sector, int per_column, int per_sector, int first_to,
                            int n_to, int first_from, const Matrix& loads) {
   Matrix result(per_column * n_to, loads.columns());
-  for (const SectorPart& from : by_sectors(first_from, loads.rows() / per_column, per_sector))
-    for (const SectorPart& to : by_sectors(first_to, n_to, per_sector)) {
+  const auto all_from = by_sectors(first_from, loads.rows() / per_column, per_sector),
+             all_to = by_sectors(first_to, n_to, per_sector);
+  parallel_for(static_cast<int>(all_to.size()), [&](int k) {
+    const SectorPart& to = all_to[k];
+    for (const SectorPart& from : all_from) {
       const Matrix g = outer_compliance(by_sector, per_column, per_sector, first_to + to.first, to.n,
                                         first_from + from.first, from.n);
       multiply_rows(1, g, loads, per_column * from.first, 1, result, per_column * to.first);
     }
+  });
   return result;
 }
 
@@ -169,7 +174,7 @@ void apply_to_outer_line(const CyclicStiffness<dim>& ring, const Tread<dim>& tre
     const Matrix of_lines = outer_displacements(by_sector, n_base, per_sector, first - width - 1 - reach,
                                                 n + 2 * (width + 1 + reach), first - reach, on_base);
     const int n_seen = 2 * (width + 1 + reach) + 1;
-    for (int k = 0; k < n; ++k) {
+    parallel_for(n, [&](int k) {
       const Matrix of_base = outer_compliance(by_sector, n_base, per_sector, first + k - width - 1 - reach,
                                               n_seen, first + k, 1);
       auto base = Matrix::unfilled(n_base * n_seen, map.n_seam());
@@ -177,7 +182,7 @@ void apply_to_outer_line(const CyclicStiffness<dim>& ring, const Tread<dim>& tre
         std::copy_n(i < n_base ? of_base.column(i) : of_lines.column(n_line * k + i - n_base) + n_base * k,
                     base.rows(), base.column(i));
       responses[first + k] = map.seen(base, width);
-    }
+    });
   });
 }
 
@@ -244,10 +249,18 @@ Seams seams_of(const std::vector<bool>& loaded_columns, bool is_mirror_symmetric
 /// Floating-point operations.
 struct Work {
   double triangular, products;  ///< of triangular factors, and of dense products
+  double longest_chain;         ///< of both: those that one thread does
   double flops() const { return triangular + products; }
   /// In units of an operation of a product: one of a triangular factor takes twice as long.
   double time() const { return 2 * triangular + products; }
 };
+
+/// Of SeamMap::seen(), which both routes end with.
+template <int dim>
+double flops_of_seeing(const Tread<dim>& tread, int width, double n_seams) {
+  return 2 * n_seams * tread.n_seam() * static_cast<double>(tread.line_of_base().entries().size()) *
+         (2 * width + 3);
+}
 
 /// A product of a real number and a complex one counts as two real ones, one of two complex ones as four. The
 /// parts of a ring that is symmetric across its width have half the size.
@@ -255,9 +268,11 @@ template <int dim>
 Work work_of_solving(const CyclicStiffness<dim>& ring, double n_loads) {
   const int n_harmonics = ring.n_sectors() / 2 + 1;
   const double outer = ring.n_outer();
-  return {.triangular = n_loads * n_harmonics * (ring.is_mirror_symmetric() ? 2 : 4) * 2 * outer * outer *
-                        (ring.is_symmetric_across_width() ? 0.5 : 1),
-          .products = n_loads * n_harmonics * 8 * ring.n_sectors() * outer};
+  const double of_harmonic = n_loads * (ring.is_mirror_symmetric() ? 2 : 4) * 2 * outer * outer *
+                             (ring.is_symmetric_across_width() ? 0.5 : 1);
+  return {.triangular = n_harmonics * of_harmonic,
+          .products = n_loads * n_harmonics * 8 * ring.n_sectors() * outer,
+          .longest_chain = of_harmonic};
 }
 
 template <int dim>
@@ -265,22 +280,20 @@ Work work_of_inverting(const CyclicStiffness<dim>& ring, const Tread<dim>& tread
                        std::span<const int> seams) {
   const int n_harmonics = ring.n_sectors() / 2 + 1;
   const double outer = ring.n_outer(), n_base = tread.base_per_column(), reach = tread.base_reach();
-  Work work{.triangular = n_harmonics * (ring.is_mirror_symmetric() ? 1 : 4) * 2.0 / 3 * outer * outer *
-                          outer * (ring.is_symmetric_across_width() ? 0.25 : 1),
-            .products = 0};
+  const double of_harmonic = (ring.is_mirror_symmetric() ? 1 : 4) * 2.0 / 3 * outer * outer * outer *
+                             (ring.is_symmetric_across_width() ? 0.25 : 1);
+  Work work{.triangular = n_harmonics * of_harmonic, .products = 0, .longest_chain = of_harmonic};
+  double longest_group = 0;
   for (const auto group : runs(seams, seams_together)) {
-    const double n = static_cast<double>(group.size());
-    work.products +=
-        2 * n_base * (n + 2 * (width + 1 + reach)) * n_base * (n + 2 * reach) * tread.n_line() * n;
+    const double n = static_cast<double>(group.size()), n_to = n + 2 * (width + 1 + reach);
+    const double of_column = 2 * n_base * n_base * (n + 2 * reach) * tread.n_line() * n;
+    work.products += of_column * n_to;
+    // Of the columns of a sector, and then of a seam.
+    longest_group = std::max(longest_group, of_column * std::min<double>(n_to, tread.columns_per_sector()) +
+                                                flops_of_seeing(tread, width, 1));
   }
+  work.longest_chain += longest_group;
   return work;
-}
-
-/// Of SeamMap::seen(), which both routes end with.
-template <int dim>
-double flops_of_seeing(const Tread<dim>& tread, int width, double n_seams) {
-  return 2 * n_seams * tread.n_seam() * static_cast<double>(tread.line_of_base().entries().size()) *
-         (2 * width + 3);
 }
 
 }  // namespace
@@ -298,8 +311,9 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
              inverting = work_of_inverting(ring, tread, width, seams.computed);
   route_ = route.value_or(solving.time() < inverting.time() ? ComplianceRoute::solve_seams
                                                             : ComplianceRoute::invert_outer_line);
-  flops_ = (route_ == ComplianceRoute::solve_seams ? solving : inverting).flops() +
-           flops_of_seeing(tread, width, n_computed);
+  const Work& work = route_ == ComplianceRoute::solve_seams ? solving : inverting;
+  flops_ = work.flops() + flops_of_seeing(tread, width, n_computed);
+  longest_chain_flops_ = work.longest_chain;
   if (route_ == ComplianceRoute::solve_seams) {
     const size_t together = std::max(1, rhs_together / tread.n_seam());
     for (size_t first = 0; first < seams.computed.size(); first += together)

@@ -37,11 +37,13 @@ class SurfaceCompliance {
   ComplianceRoute route() const { return route_; }
   /// Floating-point operations of its dense products and factors.
   double flops() const { return flops_; }
+  /// Those of them that follow each other on one thread, however many threads there are.
+  double longest_chain_flops() const { return longest_chain_flops_; }
 
  private:
   int columns_per_sector_, width_;
   ComplianceRoute route_;
-  double flops_;
+  double flops_, longest_chain_flops_;
   std::vector<Matrix> responses_;
 };
 
