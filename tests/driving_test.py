@@ -72,6 +72,14 @@ draft = 3
 parting_plane = 0.03
 """
 
+# Its holes narrow upwards by more than allowed.
+PRINTED_CASE = MOULDED_CASE.split("made =")[0].replace("holes.ring", "holes.tapered").replace(
+    "radius = 0.03\n", "profile = [[-0.06, 0.038], [0, 0.02], [0.06, 0.005]]\n").replace("angular_cells = 64", "angular_cells = 96") + """
+made = "printed"
+overhang = 10
+stands_on = "smaller_z"
+"""
+
 BOUNDED_CASE = CASE.replace("iterations = 3", 'iterations = 2\nmethod = "sequential_quadratic"') + """
 [[constraint]]
 quantity = "stiffness"
@@ -179,6 +187,30 @@ class Driving(unittest.TestCase):
         told = re.search(r"z = ([\d.]+) mm, smallest draft ([\d.]+) deg", exported)
         self.assertEqual(told[1], "30.0")
         self.assertAlmostEqual(float(told[2]), math.degrees(draft["angle_rad"]), delta=0.5)  # another surface
+
+    def test_a_run_tells_how_its_wheel_is_printed(self):
+        results = self.folder / "results"
+        case = self.write("case.toml", PRINTED_CASE)
+        self.assertRegex(run("check", case).stdout, r"printed .*z = 0\.0 mm, largest overhang [-\d.]+ deg")
+        done = run("run", case, "--output", results)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("cannot be printed without support", done.stdout + done.stderr)
+        summary = json.loads((results / "summary.json").read_text(encoding="utf-8"))
+        validator("summary").validate(summary)
+        made, overhang = summary["made"], summary["made"]["largest_overhang"]
+        self.assertEqual(made["how"], "printed")
+        self.assertEqual(made["plate_m"], 0)
+        self.assertAlmostEqual(made["overhang_rad"], math.radians(10))
+        self.assertLess(overhang["angle_rad"], math.radians(10 + 3))
+        self.assertTrue(0.20 < overhang["radius_m"] < 0.34 and 0 <= overhang["z_m"] <= 0.12, overhang)
+        # The terminal, the page and export say it too.
+        angle = f"{math.degrees(overhang['angle_rad']):.3g} deg"
+        self.assertIn(angle, done.stdout)
+        self.assertIn(angle, (results / "report.html").read_text(encoding="utf-8"))
+        exported = run("export", results, "--output", self.folder).stdout
+        told = re.search(r"z = ([\d.]+) mm, largest overhang ([-\d.]+) deg", exported)
+        self.assertEqual(told[1], "0.0")
+        self.assertAlmostEqual(float(told[2]), math.degrees(overhang["angle_rad"]), delta=1)  # another surface
 
     def test_check_tells_how_a_wheel_is_made(self):
         case = self.write("case.toml", MOULDED_CASE)

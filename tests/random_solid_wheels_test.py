@@ -2,8 +2,9 @@
 
 They are made in all ways, with and without friction, camber, lateral and horizontal forces, with free and with fixed side
 faces, of one or two materials, under one or several loads. Each ends well, or is refused with the key or the reason: what
-ends well has finite numbers, a surface without gaps that has the volume of the summary, no undercut if it is moulded, and
-one valid solid if it has a STEP file.
+ends well has finite numbers, a surface without gaps that has the volume of the summary, no undercut if it is moulded, no
+steeper overhang than allowed if it is printed, and one valid solid if it has a STEP file.
+Of NUMBER + 6 wheels the last six are printed.
 usage: random_solid_wheels_test.py PROGRAM READ_STEP NUMBER SEED
 """
 
@@ -26,6 +27,7 @@ del sys.argv[1:5]
 
 DONE, ERRORS, GAVE_UP, REFUSED, INFEASIBLE = 0, 2, 3, 4, 9  # exit codes
 MADE = ["free", "extruded", "turned", "moulded"]
+PRINTED = 6
 
 
 class Draw(random.Random):
@@ -162,6 +164,9 @@ tread_band = {2.05 * self.cell}
             text += f"draft = {draw.choice([0, 2, draw.uniform(0, 10)])}\n"
             if draw.chance(0.6):
                 text += f"parting_plane = {draw.randint(0, self.layers) * self.width / self.layers!r}\n"
+        if self.made == "printed":
+            text += f"overhang = {draw.choice([0, 45, draw.uniform(0, 75)])}\n"
+            text += f'stands_on = "{draw.choice(["smaller_z", "larger_z"])}"\n'
         if draw.chance(0.3):
             text += f"[volume]\ntarget = {draw.uniform(0.7, 0.95)}\n"
         if draw.chance(0.2):
@@ -217,8 +222,8 @@ class RandomSolidWheels(unittest.TestCase):
 
     def test_each_ends_well_or_is_refused_with_a_reason(self):
         draw = Draw(int(seed))
-        for k in range(int(number)):
-            wheel = Wheel(draw, MADE[k % len(MADE)])
+        for k in range(int(number) + PRINTED):
+            wheel = Wheel(draw, MADE[k % len(MADE)] if k < int(number) else "printed")
             text = wheel.text()
             with self.subTest(wheel=k, case=text):
                 case = self.folder / f"wheel{k}.toml"
@@ -261,9 +266,11 @@ class RandomSolidWheels(unittest.TestCase):
         self.assertIsNotNone(surface, "shape.stl has gaps")
         # The cells' edges are chords and parabolas of the circles, and the triangles' edges chords.
         self.assertAlmostEqual(surface, told, delta=0.02 * told)
-        draft = summary["made"].get("smallest_draft")
+        draft, overhang = summary["made"].get("smallest_draft"), summary["made"].get("largest_overhang")
         if draft:
             self.assertGreater(math.degrees(draft["angle_rad"]), -0.01)
+        if overhang:
+            self.assertLess(math.degrees(overhang["angle_rad"] - summary["made"]["overhang_rad"]), 5)
 
     def refusal_of_export(self, wheel, results, kind):
         """Returns why no file was written; "" if a valid one was."""

@@ -18,6 +18,7 @@
 #include "wheelwright/mechanics/elasticity/side_faces.h"
 #include "wheelwright/quantities/functionals/quantities.h"
 #include "wheelwright/shape/geometry/level_set.h"
+#include "wheelwright/shape/geometry/print.h"
 
 namespace wheelwright {
 
@@ -452,7 +453,7 @@ enum class OptimizerMethod {
 enum class NucleationTime { never, converged };
 
 /// How the wheel is made, which every shape of a run allows; in 3D.
-enum class Manufacture { free, extruded, turned, moulded };
+enum class Manufacture { free, extruded, turned, moulded, printed };
 
 struct Optimizer {
   OptimizerMethod method = OptimizerMethod::automatic;
@@ -475,8 +476,10 @@ struct Optimizer {
       minimum_radius;  ///< of internal corners [m]; absent: of 0.75 cells in the last part of a run
   NucleationTime nucleation = NucleationTime::never;
   Manufacture made = Manufacture::free;
-  std::optional<double> parting_plane;  ///< z of moulded wheels [m]; absent: in the middle of the width
-  double draft = 0;                     ///< of moulded wheels [rad]
+  std::optional<double> parting_plane;       ///< z of moulded wheels [m]; absent: in the middle of the width
+  double draft = 0;                          ///< of moulded wheels [rad]
+  std::optional<double> overhang;            ///< the largest of printed wheels [rad]; absent: 45 degrees
+  SideFace stands_on = SideFace::smaller_z;  ///< while a printed wheel is printed
   bool operator==(const Optimizer&) const = default;
 };
 

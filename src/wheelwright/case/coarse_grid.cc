@@ -27,7 +27,7 @@ Case on_coarser_grid(Case c, int level) {
   if (c.grid.tread_levels)
     c.grid.tread_levels =
         std::min(*c.grid.tread_levels + level, std::max(most_tread_levels, *c.grid.tread_levels));
-  const auto [rim, tread, between, mould] = bands(c);
+  const auto [rim, tread, between, mould, print] = bands(c);
   const PolarGrid<2> grid = polar_grid<2>(c);
   const int rows = grid.cells[0];
   c.optimizer.rim_band = std::max(rim.thickness, grid.height_of_rows(0, rim.full_rows));
@@ -46,7 +46,7 @@ bool can_be_halved(const Case& c, int times) {
 bool has_room_between_bands(const Case& c, int level) {
   const Case coarse = on_coarser_grid(c, level);
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
-  const auto [rim, tread, between, mould] = bands(coarse);
+  const auto [rim, tread, between, mould, print] = bands(coarse);
   return rim.thickness + tread.thickness < ring - largest_row_height(polar_grid<2>(coarse));
 }
 

@@ -320,6 +320,7 @@ Bands bands(const Case& c) {
     between.pop_back();
   }
   result.mould = mould(c);
+  result.print = print(c);
   return result;
 }
 
@@ -403,6 +404,13 @@ std::optional<Mould> mould(const Case& c) {
   if (o.made != Manufacture::moulded) return {};
   const double middle = c.grid.axial_cells / 2 * (c.wheel.width / c.grid.axial_cells);
   return Mould{o.parting_plane.value_or(middle), std::tan(o.draft)};
+}
+
+std::optional<Print> print(const Case& c) {
+  constexpr double usual = std::numbers::pi / 4;
+  const Optimizer& o = c.optimizer;
+  if (o.made != Manufacture::printed) return {};
+  return Print{o.stands_on, std::tan(o.overhang.value_or(usual))};
 }
 
 std::vector<TaperedHole> sector_tapered_holes(const Case& c) {

@@ -176,6 +176,9 @@ Invariance invariance(const Case& c);
 
 /// That of a moulded wheel.
 std::optional<Mould> mould(const Case& c);
+
+/// That of a printed wheel.
+std::optional<Print> print(const Case& c);
 std::vector<TaperedHole> sector_tapered_holes(const Case& c);
 
 /// Nodes of the displacement along the axle: 1 in 2D.

@@ -36,7 +36,7 @@ bool fits_lines(Case c, int halvings) {
 }
 
 bool fits_bands(const Case& c) {
-  const auto [rim, tread, between, mould] = bands(c);
+  const auto [rim, tread, between, mould, print] = bands(c);
   const PolarGrid<2> grid = polar_grid<2>(c);
   const int rows = grid.cells[0];
   const double rounding = 1e-9 * c.wheel.outer_radius;

@@ -6,6 +6,7 @@
 namespace wheelwright {
 
 /// The values of Manufacture as case files name them.
-inline constexpr std::array<std::string_view, 4> manufacture_words{"free", "extruded", "turned", "moulded"};
+inline constexpr std::array<std::string_view, 5> manufacture_words{"free", "extruded", "turned", "moulded",
+                                                                   "printed"};
 
 }  // namespace wheelwright

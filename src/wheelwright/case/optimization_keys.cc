@@ -198,22 +198,6 @@ std::vector<Key<Optimizer>> search_keys() {
        .meaning = "what moves the boundary. vector: a smooth vector field; h1: a smooth speed along the "
                   "normal; harmonic: the speed of the paper's harmonic extension; auto: vector with "
                   "sequential quadratic steps for the weighted sum without bounds in 2D, else h1"},
-      {.name = "made",
-       .field = choice<&Optimizer::made>({manufacture_words.begin(), manufacture_words.end()}),
-       .meaning =
-           "in 3D, what every shape of a run is. extruded: the same all along the axle; turned: a body of "
-           "revolution, by default in sectors of a few cells and, without losses and fatigue, with one load "
-           "position; moulded: without undercuts in a mould of two halves that open along the axle"},
-      {.name = "parting_plane",
-       .unit = "m",
-       .field = OptionalNumberField<Optimizer>{&Optimizer::parting_plane, between(0, 1000),
-                                               "between the cells nearest the middle of the width"},
-       .meaning = "with made = \"moulded\", z of the plane in which the halves of the mould meet, between "
-                  "cells; 0 or wheel.width: one half is flat"},
-      {.name = "draft",
-       .unit = "deg",
-       .field = NumberField<Optimizer>{&Optimizer::draft, between(0, 30), degree_of_arc},
-       .meaning = "with made = \"moulded\", the least angle between the edges of holes and the axle"},
       {.name = "velocity_length",
        .unit = "cells",
        .field =
@@ -249,6 +233,36 @@ std::vector<Key<Optimizer>> search_keys() {
        .unit = "shapes",
        .field = IntegerField<Optimizer>{&Optimizer::smooth_every, between(1, 1000000)},
        .meaning = "how often the level set is smoothed by (76)"}};
+}
+
+/// How the wheel is made.
+std::vector<Key<Optimizer>> manufacture_keys() {
+  return {
+      {.name = "made",
+       .field = choice<&Optimizer::made>({manufacture_words.begin(), manufacture_words.end()}),
+       .meaning =
+           "in 3D, what every shape of a run is. extruded: the same all along the axle; turned: a body of "
+           "revolution, by default in sectors of a few cells and, without losses and fatigue, with one load "
+           "position; moulded: without undercuts in a mould of two halves that open along the axle; printed: "
+           "layer by layer along the axle, without support and without closed cavities"},
+      {.name = "parting_plane",
+       .unit = "m",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::parting_plane, between(0, 1000),
+                                               "between the cells nearest the middle of the width"},
+       .meaning = "with made = \"moulded\", z of the plane in which the halves of the mould meet, between "
+                  "cells; 0 or wheel.width: one half is flat"},
+      {.name = "draft",
+       .unit = "deg",
+       .field = NumberField<Optimizer>{&Optimizer::draft, between(0, 30), degree_of_arc},
+       .meaning = "with made = \"moulded\", the least angle between the edges of holes and the axle"},
+      {.name = "overhang",
+       .unit = "deg",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::overhang, between(0, 75), "45", degree_of_arc},
+       .meaning = "with made = \"printed\", the largest angle against the axle by which the edges of holes "
+                  "lean over the layers below them; 0: holes nowhere narrow upwards"},
+      {.name = "stands_on",
+       .field = choice<&Optimizer::stands_on>({"smaller_z", "larger_z"}),
+       .meaning = "with made = \"printed\", the side face on which the wheel stands while it is printed"}};
 }
 
 /// Minimum widths and new holes.
@@ -293,6 +307,7 @@ std::vector<Key<Optimizer>> feature_keys() {
 
 std::vector<Key<Optimizer>> optimizer_keys() {
   auto keys = search_keys();
+  std::ranges::move(manufacture_keys(), std::back_inserter(keys));
   std::ranges::move(feature_keys(), std::back_inserter(keys));
   return keys;
 }

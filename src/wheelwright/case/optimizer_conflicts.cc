@@ -5,6 +5,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/layers.h"
+#include "wheelwright/case/manufacture_words.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/single_load.h"
 
@@ -75,16 +76,28 @@ void check_manufacture(const Case& c, Conflicts& found) {
     found.push_back({{key_of(&Optimizer::made)}, "drawn shapes are not bodies of revolution", remedy});
 }
 
+/// A key that needs another way of making the wheel.
+void refuse_unless_made(Manufacture made, const CaseKey& key, const Case& c, Conflicts& found) {
+  if (c.optimizer.made == made) return;
+  const auto how = manufacture_words[static_cast<std::size_t>(made)];
+  found.push_back({{key, key_of(&Optimizer::made)},
+                   fmt::format("the wheel is not {}", how),
+                   fmt::format("omit the key, or use made = \"{}\"", how)});
+}
+
+/// The keys of a print need one.
+void check_print(const Case& c, Conflicts& found) {
+  const Optimizer& o = c.optimizer;
+  if (o.overhang) refuse_unless_made(Manufacture::printed, key_of(&Optimizer::overhang), c, found);
+  if (o.stands_on != SideFace::smaller_z)
+    refuse_unless_made(Manufacture::printed, key_of(&Optimizer::stands_on), c, found);
+}
+
 /// The keys of a mould need one, and it parts between cells.
 void check_mould(const Case& c, Conflicts& found) {
   const Optimizer& o = c.optimizer;
-  for (const auto& [key, is_given] :
-       {std::pair(key_of(&Optimizer::parting_plane), o.parting_plane.has_value()),
-        std::pair(key_of(&Optimizer::draft), o.draft != 0)})
-    if (is_given && o.made != Manufacture::moulded)
-      found.push_back({{key, key_of(&Optimizer::made)},
-                       "the wheel is not moulded",
-                       "omit the key, or use made = \"moulded\""});
+  if (o.parting_plane) refuse_unless_made(Manufacture::moulded, key_of(&Optimizer::parting_plane), c, found);
+  if (o.draft != 0) refuse_unless_made(Manufacture::moulded, key_of(&Optimizer::draft), c, found);
   if (c.wheel.dimension != 3 || o.made != Manufacture::moulded || !o.parting_plane) return;
   const double cell = c.wheel.width / c.grid.axial_cells, plane = *o.parting_plane;
   const int nearest = std::clamp(static_cast<int>(std::lround(plane / cell)), 0, c.grid.axial_cells);
@@ -101,6 +114,7 @@ void optimizer_conflicts(const Case& c, Conflicts& found) {
   check_nucleation(c, found);
   check_manufacture(c, found);
   check_mould(c, found);
+  check_print(c, found);
 }
 
 }  // namespace wheelwright

@@ -18,7 +18,7 @@ constexpr double square(double x) { return x * x; }
 /// hole of one cell in every sector.
 void volume_conflicts(const Case& c, Conflicts& found) {
   const Wheel& w = c.wheel;
-  const auto [rim, tread, between, mould] = bands(c);
+  const auto [rim, tread, between, mould, print] = bands(c);
   const double low = w.inner_radius + rim.thickness, high = w.outer_radius - tread.thickness;
   if (!c.volume.target || low >= high) return;
   if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never) {

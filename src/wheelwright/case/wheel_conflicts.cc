@@ -53,7 +53,7 @@ void wheel_conflicts(const Case& c, Conflicts& found) {
                      fmt::format("use outer_radius >= {:.6g} m", w.inner_radius / (1 - 2 * thinnest))});
     return;
   }
-  const auto [rim, tread, between, mould] = bands(c);
+  const auto [rim, tread, between, mould, print] = bands(c);
   const PolarGrid<2> grid = polar_grid<2>(c);
   const int rows = grid.cells[0];
   check_band(c, rim, grid.height_of_rows(0, rim.full_rows), "rim", key_of(&Optimizer::rim_band),

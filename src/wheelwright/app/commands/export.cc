@@ -318,9 +318,8 @@ class ExportCommand : public Subcommand {
     fmt::print("{:<16} {}\n{}", "wheel", wheel->model.title, text(wheel->whole));
     warn_of_pieces(wheel->whole.report.bodies);
     const MadeWheel made = made_wheel(input.source, wheel->model.surface);
-    if (made.mould) fmt::print("{:<16} {}\n", made.how, text(made));
-    if (const std::string undercut = undercut_warning(made); !undercut.empty())
-      print_warning(stderr, undercut);
+    if (made.mould || made.print) fmt::print("{:<16} {}\n", made.how, text(made));
+    if (const std::string warning = making_warning(made); !warning.empty()) print_warning(stderr, warning);
     return std::move(wheel->model);
   }
 

@@ -170,7 +170,7 @@ Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step,
     const auto& c = motion_.coefficients();
     const double distance = move.distance * resolution;
     const bool holds_more = evolver_.hold_at_bands(c, move.velocity, distance, held);
-    return evolver_.follow_in_mould(c, move.velocity, distance, following) || holds_more;
+    return evolver_.follow_as_made(c, move.velocity, distance, following) || holds_more;
   };
   auto move = move_with(held, following, step, bends);
   for (int turn = 0; turn < max_turns && limit_more(move); ++turn)

@@ -91,13 +91,18 @@ Json angle_json(const AxialAngle& found) {
           {"z_m", found.place[2]}};
 }
 
-/// The smallest draft of a wheel without holes is null.
+/// The angles of a wheel without holes are null.
 Json made_json(const MadeWheel& made) {
   Json json{{"how", made.how}};
   if (made.mould) {
     json["parting_plane_m"] = made.mould->parting_plane;
     json["draft_rad"] = made.mould->draft;
     json["smallest_draft"] = angle_json(made.mould->smallest);
+  }
+  if (made.print) {
+    json["plate_m"] = made.print->plate;
+    json["overhang_rad"] = made.print->overhang;
+    json["largest_overhang"] = angle_json(made.print->largest);
   }
   return json;
 }

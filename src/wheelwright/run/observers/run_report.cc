@@ -166,8 +166,8 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary, co
   for (const std::string& line : missing_lines(summary)) result.push_back(line);
   for (const Remark& remark : summary.remarks) result.push_back(text(remark));
   for (const ChosenRadius& radius : summary.radii) result.push_back(text(radius));
-  if (const std::string undercut = summary.made ? undercut_warning(*summary.made) : ""; !undercut.empty())
-    result.push_back(undercut);
+  if (const std::string warning = summary.made ? making_warning(*summary.made) : ""; !warning.empty())
+    result.push_back(warning);
   if (!summary.changed_start.empty()) result.push_back(summary.changed_start);
   if (reason == StopReason::iterations && convergence_tolerance(c) > 0)
     result.push_back(

@@ -22,6 +22,10 @@ MadeWheel made_wheel(const Case& c, const SurfaceMesh& surface) {
     const double plane = parting_plane_of(*of_case, grid) * grid.axial_size();
     made.mould = {plane, c.optimizer.draft, smallest_draft(surface, plane)};
   }
+  if (const auto of_case = print(c)) {
+    const double plate = of_case->plate == SideFace::smaller_z ? 0 : c.wheel.width;
+    made.print = {plate, std::atan(of_case->slope), largest_overhang(surface, of_case->plate)};
+  }
   return made;
 }
 
@@ -32,7 +36,7 @@ std::optional<MadeWheel> made_wheel(const Case&, const LevelSet<2>&) {
 
 template <>
 std::optional<MadeWheel> made_wheel(const Case& c, const LevelSet<3>& shape) {
-  return mould(c) ? made_wheel(c, shape_boundary(shape, c.grid.degree)) : made_as_asked(c);
+  return mould(c) || print(c) ? made_wheel(c, shape_boundary(shape, c.grid.degree)) : made_as_asked(c);
 }
 
 }  // namespace wheelwright

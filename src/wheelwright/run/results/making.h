@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// How a shape of a case in 3D is made, with its smallest draft measured on its surface.
+/// How a shape of a case in 3D is made, with its smallest draft or largest overhang measured on its surface.
 MadeWheel made_wheel(const Case& c, const SurfaceMesh& surface);
 
 /// The same, measured on the surface of pictures and files of a run; nothing in 2D.

@@ -395,6 +395,22 @@ std::string bounds_report(const Case& c) {
   return report;
 }
 
+/// From layer to layer, edges lean over by at most the length of a cell.
+std::string overhang_limited_by_grid(const Case& c) {
+  const auto asked = print(c);
+  if (!asked) return "";
+  const PolarGrid<3> grid = polar_grid<3>(c);
+  const double slope = slope_on(grid, *asked);
+  if (slope >= asked->slope) return "";
+  constexpr double degrees_per_radian = 180 / std::numbers::pi;
+  return fmt::format(
+      "layers of cells {:.3g} mm high limit the overhang to {:.3g} deg instead of {:.3g} deg; with "
+      "grid.axial_cells = {} they do not",
+      1e3 * grid.axial_size(), std::atan(slope) * degrees_per_radian,
+      std::atan(asked->slope) * degrees_per_radian,
+      std::ceil(grid.width * asked->slope / longest_edge_across(grid) - 1e-9));
+}
+
 std::string load_case_text(const CaseLoad& load_case) {
   const auto& share = load_case.distance_share;
   return fmt::format("{}, weight {:.6g}{}", load_case.name, load_case.weight,
@@ -453,6 +469,7 @@ std::vector<std::string> warnings(const Case& c) {
   if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never && design_radii(c).empty())
     result.push_back("there are no holes, so no boundary can move");
   std::ranges::copy(holes_in_solid_layers(c), std::back_inserter(result));
+  if (const std::string limited = overhang_limited_by_grid(c); !limited.empty()) result.push_back(limited);
   std::ranges::copy(unequal_rows(c), std::back_inserter(result));
   std::ranges::copy(warnings_of_losses(c), std::back_inserter(result));
   std::ranges::copy(warnings_of_fatigue(c), std::back_inserter(result));

@@ -262,7 +262,7 @@ template <int dim>
 std::optional<std::string> fitting_of_initial_shape(const Case& c) {
   const SavedLevelSet* saved = saved_shape(c);
   const bool is_averaged = invariance(c) != Invariance::none;
-  if (!mould(c) && !(saved && is_averaged)) return {};
+  if (!mould(c) && !print(c) && !(saved && is_averaged)) return {};
   const LevelSet<dim> fitted = initial_shape<dim>(c),
                       given = ProtectedBands<dim>(fitted.lattice, bands(c)).clip(given_shape<dim>(c));
   const double cell = given.lattice.grid().resolution();
@@ -273,6 +273,7 @@ std::optional<std::string> fitting_of_initial_shape(const Case& c) {
   if (farthest < 1e-6 * cell) return {};
   const char* problem = c.optimizer.made == Manufacture::turned     ? "is not a body of revolution"
                         : c.optimizer.made == Manufacture::extruded ? "is not the same along the axle"
+                        : c.optimizer.made == Manufacture::printed  ? "cannot be printed without support"
                                                                     : "does not come out of the mould";
   return fmt::format("the {} {}: {}, which moves its edges by up to about {:.2g} mm",
                      saved ? "saved shape" : "initial shape", problem,
@@ -309,8 +310,9 @@ std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   auto given =
       invariant_part(saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c), invariance(c));
   // What layers without holes take of them is not lost on the grid.
-  const Bands kept{.rim = {}, .tread = {}, .between = solid_layers(c), .mould = mould(c)};
-  if (!kept.between.empty() || kept.mould) given = ProtectedBands<dim>(samples, kept).keep(std::move(given));
+  const Bands kept{.rim = {}, .tread = {}, .between = solid_layers(c), .mould = mould(c), .print = print(c)};
+  if (!kept.between.empty() || kept.mould || kept.print)
+    given = ProtectedBands<dim>(samples, kept).keep(std::move(given));
   return topology_changes(components(given, 1), components(initial_shape<dim>(c)));
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "wheelwright/shape/evolution/cubic_interpolant.h"
-#include "wheelwright/shape/evolution/moulded_shapes.h"
+#include "wheelwright/shape/evolution/followers.h"
 #include "wheelwright/shape/evolution/spline_level_set.h"
 
 namespace wheelwright {
@@ -30,7 +30,7 @@ class BoundaryMotion {
   BoundaryMotion holding(const std::vector<bool>& held) const;
 
   /// The motion of these points of the boundary of the same shape if some values follow others
-  /// (MouldedShapes::follow()).
+  /// (MadeShapes::follow()).
   BoundaryMotion following(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points,
                            Following following) const;
 

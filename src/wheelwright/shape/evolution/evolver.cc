@@ -115,12 +115,12 @@ bool Evolver<dim>::hold_at_bands(const LevelSet<dim>& coefficients, std::span<co
 }
 
 template <int dim>
-bool Evolver<dim>::follow_in_mould(const LevelSet<dim>& coefficients, std::span<const double> velocity,
-                                   double distance, Following& following) const {
+bool Evolver<dim>::follow_as_made(const LevelSet<dim>& coefficients, std::span<const double> velocity,
+                                  double distance, Following& following) const {
   const double fastest = largest_magnitude(velocity);
-  if (!bands_.moulded() || !(fastest > 0)) return false;
+  if (!bands_.made() || !(fastest > 0)) return false;
   const auto moved = smooth_transport<dim>(coefficients, velocity, distance / fastest);
-  return bands_.moulded()->follow(bands_.clip(coefficients), bands_.clip(moved), following);
+  return bands_.made()->follow(bands_.clip_design(coefficients), bands_.clip_design(moved), following);
 }
 
 template <int dim>
@@ -209,7 +209,7 @@ Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
 
 template <int dim>
 LevelSet<dim> Evolver<dim>::keep_bands(const LevelSet<dim>& psi) const {
-  return bands_.moulded() ? shape_of(design_of(psi)) : bands_.keep(psi);
+  return bands_.made() ? shape_of(design_of(psi)) : bands_.keep(psi);
 }
 
 template <int dim>

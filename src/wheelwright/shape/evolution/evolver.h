@@ -62,10 +62,10 @@ class Evolver {
   bool hold_at_bands(const LevelSet<dim>& coefficients, std::span<const double> velocity, double distance,
                      std::vector<bool>& held) const;
 
-  /// Adds to `following` what the mould makes follow other values under this velocity of the
-  /// coefficients (MouldedShapes::follow()). Returns whether it added any.
-  bool follow_in_mould(const LevelSet<dim>& coefficients, std::span<const double> velocity, double distance,
-                       Following& following) const;
+  /// Adds to `following` what the way in which the wheel is made lets follow other values under this velocity
+  /// of the coefficients (MadeShapes::follow()). Returns whether it added any.
+  bool follow_as_made(const LevelSet<dim>& coefficients, std::span<const double> velocity, double distance,
+                      Following& following) const;
 
   /// Transports the shape for the time in which the fastest node travels `distance` [m]. Fails if `velocity`
   /// vanishes everywhere.

@@ -161,35 +161,6 @@ LevelSet<dim> MouldedShapes<dim>::keep(LevelSet<dim> psi) const {
   return allowed == points ? psi : of_control_points(lattice_, std::move(allowed));
 }
 
-namespace {
-
-constexpr double part = 0.25, minimum = 0.01;  // of the motion; of a cell
-
-/// Whether a value with this room above its bound is stopped while it approaches the bound.
-bool is_stopped(double room, double approach, double cell, double unchanged) {
-  if (room < -unchanged) return true;
-  return approach > std::max(room, 0.0) + unchanged && room < std::max(part * approach, minimum * cell);
-}
-
-double sum(const std::vector<Dependence>& dependences, std::span<const double> values) {
-  double total = 0;
-  for (const auto& [node, weight] : dependences) total += weight * values[node];
-  return total;
-}
-
-/// The dependence on those that do not follow others.
-std::vector<Dependence> on_roots(const std::vector<Dependence>& dependences, const Followers& followers) {
-  std::vector<Dependence> result;
-  for (const auto& [node, weight] : dependences)
-    if (followers[node].empty())
-      result.push_back({node, weight});
-    else
-      for (const auto& [root, share] : followers[node]) result.push_back({root, weight * share});
-  return result;
-}
-
-}  // namespace
-
 template <int dim>
 bool MouldedShapes<dim>::follow(const LevelSet<dim>& coefficients, const LevelSet<dim>& moved,
                                 Following& following) const {

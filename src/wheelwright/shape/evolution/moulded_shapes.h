@@ -3,22 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "wheelwright/shape/evolution/spline_level_set.h"
+#include "wheelwright/shape/evolution/made_shapes.h"
 #include "wheelwright/shape/geometry/mould.h"
 
 namespace wheelwright {
-
-/// Values at nodes that follow others: of each its linear dependence on those that do not, which have an
-/// empty one. Empty: none follows.
-using Followers = std::vector<std::vector<Dependence>>;
-
-/// The values that follow other values while a shape moves.
-struct Following {
-  Followers coefficients;    ///< of the level set's spline
-  Followers control_points;  ///< of the level set, between the vertices of the cells
-
-  bool any() const { return !coefficients.empty() || !control_points.empty(); }
-};
 
 /// The shapes of one lattice that come out of a mould, by a condition on the coefficients of their splines:
 /// away from the parting plane, every coefficient is above the one before it by at least the mould's slope
@@ -30,22 +18,18 @@ struct Following {
 /// steeply along every line parallel to the axle. The vertices keep their values, and with them the
 /// coefficients.
 template <int dim>
-class MouldedShapes {
+class MouldedShapes : public MadeShapes<dim> {
  public:
   /// `ceiling`: coefficients that rise in this way and that no shape exceeds, e.g. of protected bands.
   MouldedShapes(const Lattice<dim>& lattice, const Mould& mould, std::span<const double> ceiling);
 
-  /// The smallest coefficients above the given ones that are allowed. Allowed ones are not changed, up to
-  /// 1e-10 of the resolution, and then to the last bit.
-  LevelSet<dim> keep_coefficients(LevelSet<dim> coefficients) const;
+  LevelSet<dim> keep_coefficients(LevelSet<dim> coefficients) const override;
 
-  /// The same for a level set. Of one whose coefficients are allowed the vertices are not changed.
-  LevelSet<dim> keep(LevelSet<dim> psi) const;
+  /// The vertices of a level set whose coefficients are allowed are not changed.
+  LevelSet<dim> keep(LevelSet<dim> psi) const override;
 
-  /// Adds to `following` what follows other values while the coefficients change towards `moved`: those that
-  /// are limited, and those that would be after the move and that could make less than a quarter of it.
-  /// Returns whether it added any.
-  bool follow(const LevelSet<dim>& coefficients, const LevelSet<dim>& moved, Following& following) const;
+  bool follow(const LevelSet<dim>& coefficients, const LevelSet<dim>& moved,
+              Following& following) const override;
 
  private:
   using Place = std::array<int, dim>;

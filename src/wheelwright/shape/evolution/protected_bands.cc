@@ -1,5 +1,7 @@
 #include "wheelwright/shape/evolution/protected_bands.h"
 
+#include "wheelwright/shape/evolution/moulded_shapes.h"
+#include "wheelwright/shape/evolution/printed_shapes.h"
 #include "wheelwright/shape/evolution/spline_level_set.h"
 
 namespace wheelwright {
@@ -79,7 +81,11 @@ ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, const Bands& ba
     upper_bound_[node] = distance(place);
   }
   bound_of_coefficients_ = mould_ ? upper_bound_ : bound_of_coefficients(lattice, upper_bound_);
-  if (mould_) moulded_ = std::make_shared<const MouldedShapes<dim>>(lattice, *mould_, upper_bound_);
+  if (mould_) made_ = std::make_shared<const MouldedShapes<dim>>(lattice, *mould_, upper_bound_);
+  if constexpr (dim == 3)
+    if (bands.print)
+      made_ = std::make_shared<const PrintedShapes>(
+          lattice, *bands.print, PrintedShapes::Ceiling{upper_bound_, bound_of_coefficients_});
 }
 
 /// Radial distance to the nearest edge of where holes may lie; negative outside of it.
@@ -102,13 +108,17 @@ bool ProtectedBands<dim>::touches(const SurfacePoint<dim>& point) const {
 
 template <int dim>
 LevelSet<dim> ProtectedBands<dim>::keep(LevelSet<dim> psi) const {
-  return moulded_ ? moulded_->keep(std::move(psi)) : clip(std::move(psi));
+  return made_ ? made_->keep(std::move(psi)) : clip(std::move(psi));
 }
 
 template <int dim>
 LevelSet<dim> ProtectedBands<dim>::keep_design(LevelSet<dim> coefficients) const {
-  return moulded_ ? moulded_->keep_coefficients(std::move(coefficients))
-                  : clipped(std::move(coefficients), bound_of_coefficients_);
+  return made_ ? made_->keep_coefficients(std::move(coefficients)) : clip_design(std::move(coefficients));
+}
+
+template <int dim>
+LevelSet<dim> ProtectedBands<dim>::clip_design(LevelSet<dim> coefficients) const {
+  return clipped(std::move(coefficients), bound_of_coefficients_);
 }
 
 template <int dim>

@@ -3,14 +3,14 @@
 #include <memory>
 #include <vector>
 
-#include "wheelwright/shape/evolution/moulded_shapes.h"
+#include "wheelwright/shape/evolution/made_shapes.h"
 #include "wheelwright/shape/geometry/bands.h"
 #include "wheelwright/shape/geometry/topology.h"
 
 namespace wheelwright {
 
-/// The bands along the rim and the tread, and the annuli between them, that stay material, and the mould from
-/// which all material must come out.
+/// The bands along the rim and the tread, and the annuli between them, that stay material, and how the
+/// wheel is made if that limits its shapes.
 template <int dim>
 class ProtectedBands {
  public:
@@ -23,13 +23,15 @@ class ProtectedBands {
   /// edge. A signed distance whose holes lie within the range is not changed.
   LevelSet<dim> clip(LevelSet<dim> psi) const;
 
-  /// The same for shapes that come out of the mould, if there is one, and for the coefficients of their
-  /// splines (MouldedShapes).
+  /// The same for the coefficients of splines, which stay below the edges with their splines.
+  LevelSet<dim> clip_design(LevelSet<dim> coefficients) const;
+
+  /// The same for shapes that can be made, if that limits them, and for the coefficients of their splines.
   LevelSet<dim> keep(LevelSet<dim> psi) const;
   LevelSet<dim> keep_design(LevelSet<dim> coefficients) const;
 
-  /// Null if there is no mould.
-  const MouldedShapes<dim>* moulded() const { return moulded_.get(); }
+  /// Null if all shapes can be made.
+  const MadeShapes<dim>* made() const { return made_.get(); }
 
   /// One event for each hole of `after` that reaches a band, up to about one sample spacing, if no
   /// overlapping hole of `before` did. The place of the event is at the band.
@@ -52,7 +54,7 @@ class ProtectedBands {
   std::vector<bool> nodes_;
   std::optional<Mould> mould_;
   std::vector<double> upper_bound_, bound_of_coefficients_;
-  std::shared_ptr<const MouldedShapes<dim>> moulded_;
+  std::shared_ptr<const MadeShapes<dim>> made_;
 };
 
 }  // namespace wheelwright

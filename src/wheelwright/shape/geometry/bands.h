@@ -6,6 +6,7 @@
 
 #include "wheelwright/shape/geometry/mould.h"
 #include "wheelwright/shape/geometry/polar_grid.h"
+#include "wheelwright/shape/geometry/print.h"
 
 namespace wheelwright {
 
@@ -20,12 +21,14 @@ struct SolidAnnulus {
   double inner, outer;
 };
 
-/// What stays material, and the mould from which the wheel must come out. The edges of bands have its draft:
-/// bands have their thickness where they are thinnest, at the side face far from the parting plane.
+/// What stays material, and the mould from which the wheel must come out, or its print. The edges of bands
+/// have the draft of the mould: bands have their thickness where they are thinnest, at the side face far from
+/// the parting plane.
 struct Bands {
   Band rim, tread;
   std::vector<SolidAnnulus> between = {};
   std::optional<Mould> mould = {};  ///< in 3D
+  std::optional<Print> print = {};  ///< in 3D
 };
 
 /// Radii between which holes may lie [m].

@@ -50,8 +50,8 @@ AxialAngle smallest_draft(const SurfaceMesh& mesh, double parting_plane) {
   return smallest_angle(mesh, [&](double z) { return z > parting_plane ? 1 : -1; });
 }
 
-AxialAngle largest_overhang(const SurfaceMesh& mesh) {
-  auto result = smallest_angle(mesh, [](double) { return 1; });
+AxialAngle largest_overhang(const SurfaceMesh& mesh, SideFace plate) {
+  auto result = smallest_angle(mesh, [&](double) { return plate == SideFace::smaller_z ? 1 : -1; });
   result.angle = -result.angle;
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheelwright/shape/geometry/print.h"
 #include "wheelwright/shape/surface/surface_mesh.h"
 
 namespace wheelwright {
@@ -15,8 +16,8 @@ struct AxialAngle {
 /// holes faces the half that moves away from it. Negative: an undercut.
 AxialAngle smallest_draft(const SurfaceMesh& mesh, double parting_plane);
 
-/// The largest overhang of a print that grows from z = 0 on: the angle by which the surface of holes
+/// The largest overhang of a print that stands on this side face: the angle by which the surface of holes
 /// faces the plate. Negative if it does nowhere; minus infinity if there are no holes.
-AxialAngle largest_overhang(const SurfaceMesh& mesh);
+AxialAngle largest_overhang(const SurfaceMesh& mesh, SideFace plate);
 
 }  // namespace wheelwright
