@@ -38,7 +38,7 @@ autodoc_mock_imports = ["wheelwright._core", "wheelwright._environment"]
 autodoc_typehints_format = "short"
 autodoc_preserve_defaults = True
 napoleon_numpy_docstring = False
-nitpick_ignore_regex = [("py:.*", r"(?!wheelwright).*"), ("py:.*", r"wheelwright\._core\..*"), ("py:.*", r"wheelwright\..*\.(Event|Designs|Value|Array|FloatArray|IntArray)")]
+nitpick_ignore_regex = [("py:.*", r"(?!wheelwright).*"), ("py:.*", r"wheelwright\._core\..*"), ("py:.*", r"wheelwright\..*\.(Client|Event|Designs|Value|Array|FloatArray|IntArray)")]
 
 html_theme = "furo"
 html_title = f"Wheelwright {release}"
