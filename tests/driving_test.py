@@ -78,6 +78,8 @@ PRINTED_CASE = MOULDED_CASE.split("made =")[0].replace("holes.ring", "holes.tape
 made = "printed"
 overhang = 10
 stands_on = "smaller_z"
+[output]
+errors = "none"
 """
 
 BOUNDED_CASE = CASE.replace("iterations = 3", 'iterations = 2\nmethod = "sequential_quadratic"') + """
