@@ -95,10 +95,12 @@ void check_bounds(const Case& c, std::size_t i, Conflicts& found) {
       refuse({key}, "more than the whole ring", "use a fraction below 1");
 }
 
-/// Bounds of lengths beyond the size of the wheel, which no shape could break or none could keep.
-void check_lengths(const Case& c, std::size_t i, Conflicts& found) {
-  const auto& quantity = c.constraints[i].quantity;
-  if (kind(quantity) != UnitKind::length || quantity == built_in("perimeter")) return;
+/// Bounds of motions beyond the size of the wheel, which no shape could break or none could keep.
+void check_motions(const Case& c, std::size_t i, Conflicts& found) {
+  const auto is_bounded = [&](const char* quantity) {
+    return c.constraints[i].quantity == built_in(quantity);
+  };
+  if (!is_bounded("travel") && !is_bounded("mean_travel") && !is_bounded("run_out")) return;
   for (const auto& bound : {lower_bound(c, i), upper_bound(c, i)}) {
     if (!bound || bound->value < c.wheel.outer_radius) continue;
     found.push_back({{bound->key, key_of(&Wheel::outer_radius)},
@@ -165,7 +167,7 @@ void constraint_conflicts(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.constraints.size(); ++i) {
     check_quantity(c, i, found);
     check_bounds(c, i, found);
-    check_lengths(c, i, found);
+    check_motions(c, i, found);
     check_strains(c, i, found);
     check_temperature(c, i, found);
   }

@@ -52,8 +52,9 @@ void Checkpointer<dim>::write(const OptimizationState<dim>& state, const RunView
                              .finished = finished,
                              .tolerance = run.study.optimizer.tolerance};
   for (const auto& observer : run.observers) observer->add_to(checkpoint);
-  folder_.save(state.iteration, checkpoint_file(checkpoint));
+  // Before the checkpoint: after that of the end, no resumed run would write it again.
   write_atomically(run.folder / saved_shape_file, level_set_file(state.shape));
+  folder_.save(state.iteration, checkpoint_file(checkpoint));
   saved_iteration_ = state.iteration;
   since_saved_.lap();
 }
