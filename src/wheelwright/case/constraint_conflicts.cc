@@ -95,16 +95,17 @@ void check_bounds(const Case& c, std::size_t i, Conflicts& found) {
       refuse({key}, "more than the whole ring", "use a fraction below 1");
 }
 
-/// Bounds of motions beyond the size of the wheel, which no shape could break or none could keep.
+/// Bounds of motions far beyond the size of the wheel, which were not meant in metres.
 void check_motions(const Case& c, std::size_t i, Conflicts& found) {
+  constexpr double most = 5;  // radii
   const auto is_bounded = [&](const char* quantity) {
     return c.constraints[i].quantity == built_in(quantity);
   };
   if (!is_bounded("travel") && !is_bounded("mean_travel") && !is_bounded("run_out")) return;
   for (const auto& bound : {lower_bound(c, i), upper_bound(c, i)}) {
-    if (!bound || bound->value < c.wheel.outer_radius) continue;
+    if (!bound || bound->value < most * c.wheel.outer_radius) continue;
     found.push_back({{bound->key, key_of(&Wheel::outer_radius)},
-                     "longer than the radius of the wheel",
+                     "many times the radius of the wheel",
                      fmt::format("use less than {:.6g} m", c.wheel.outer_radius) +
                          if_in_millimetres(bound->value, c.wheel.outer_radius)});
     return;  // equals is both bounds
