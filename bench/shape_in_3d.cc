@@ -5,8 +5,8 @@
 ///
 /// On one thread, the default, the parts of a shape are measured by doing them once more, after it. With
 /// --flops it then solves the shape once more, and prints the operations of its parts with their longest
-/// chains, and what they leave of the time on 1 to 256 cores. --sizes solves nothing, and prints the sizes
-/// alone, also of wheels that are too large for this machine.
+/// chains, and what they leave of the time on 1 to 256 cores. --sizes solves nothing and prints
+/// only the sizes, even of wheels that are too large for this machine.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -184,7 +184,7 @@ Zones turned_back(const Zones& zones, int columns) {
   return result;
 }
 
-/// What is measured after the shape itself; or the sizes instead of all of it.
+/// What is measured after the shape itself. With `sizes` no shape is solved.
 enum class Afterwards { nothing, parts, work, sizes };
 
 /// The wheel whose equations the solver solves for this shape: its half, or turned back.

@@ -52,7 +52,7 @@ class DesignProgress(NamedTuple):
 
     def __str__(self) -> str:
         where = "no new shape" if self.shape is None else f"shape {self.shape}"
-        state = "ended" if self.is_over else "goes on"
+        state = "ended" if self.is_over else "continues"
         return f"{self.progression} of {self.design}: {where}, {state}; {self.n_left} left"
 
 

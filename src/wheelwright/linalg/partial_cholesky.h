@@ -32,8 +32,8 @@ class PartialCholesky {
   const Matrix& schur() const { return schur_; }  ///< both triangles; empty once it is released
   Matrix release_schur() { return std::exchange(schur_, {}); }
   double factor_flops() const;  ///< flops of the numerical factorization
-  /// Those of them that follow each other on one thread, however many threads there are: of the supernodes on
-  /// the most expensive path of the elimination tree, and of the small subtree where it begins.
+  /// The flops that must follow each other on one thread, however many threads there are: those of the
+  /// supernodes on the most expensive path of the elimination tree, and of the small subtree where it begins.
   double longest_chain_flops() const;
 
   /// The part of the factor that a sweep visits: ascending supernodes, each with all supernodes that it

@@ -289,8 +289,8 @@ void CyclicStiffness<dim>::CoupledSectors::resize(int n, int farthest) {
   ahead_.assign(farthest, {own_, own_});
 }
 
-/// Of entries that the matrices do not keep, for negative differences and above the diagonal, the images are
-/// added too.
+/// Every entry is given together with its image. Images, for negative differences and above the diagonal of
+/// the sector's own matrix, are not kept and are ignored.
 template <int dim>
 void CyclicStiffness<dim>::CoupledSectors::add(int difference, int i, int j, double value) {
   if (difference < 0) return;
@@ -303,7 +303,7 @@ void CyclicStiffness<dim>::CoupledSectors::add(int difference, int i, int j, dou
   if (i != j) ahead.antisymmetric[place(i, j)] += i > j ? 0.5 * value : -0.5 * value;
 }
 
-/// Of an entry or its image below the diagonal.
+/// The place in packed storage of an entry or of its image below the diagonal.
 template <int dim>
 size_t CyclicStiffness<dim>::CoupledSectors::place(int i, int j) const {
   const auto [column, row] = std::minmax(i, j);

@@ -288,7 +288,7 @@ Work work_of_inverting(const CyclicStiffness<dim>& ring, const Tread<dim>& tread
     const double n = static_cast<double>(group.size()), n_to = n + 2 * (width + 1 + reach);
     const double of_column = 2 * n_base * n_base * (n + 2 * reach) * tread.n_line() * n;
     work.products += of_column * n_to;
-    // Of the columns of a sector, and then of a seam.
+    // One thread computes the columns of a sector, and then those of a seam.
     longest_group = std::max(longest_group, of_column * std::min<double>(n_to, tread.columns_per_sector()) +
                                                 flops_of_seeing(tread, width, 1));
   }

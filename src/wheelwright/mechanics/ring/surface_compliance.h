@@ -37,7 +37,7 @@ class SurfaceCompliance {
   ComplianceRoute route() const { return route_; }
   /// Floating-point operations of its dense products and factors.
   double flops() const { return flops_; }
-  /// Those of them that follow each other on one thread, however many threads there are.
+  /// The operations that must follow each other on one thread, however many threads there are.
   double longest_chain_flops() const { return longest_chain_flops_; }
 
  private:

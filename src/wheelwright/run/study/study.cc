@@ -17,6 +17,7 @@
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/quantities/functionals/mean_contact_stress.h"
 #include "wheelwright/run/study/bounded_functions.h"
+#include "wheelwright/run/study/filled_holes.h"
 #include "wheelwright/run/study/moved_studies.h"
 #include "wheelwright/shape/cut/boundary_kinks.h"
 #include "wheelwright/shape/cut/measure.h"
@@ -275,9 +276,11 @@ std::optional<std::string> fitting_of_initial_shape(const Case& c) {
                         : c.optimizer.made == Manufacture::extruded ? "is not the same along the axle"
                         : c.optimizer.made == Manufacture::printed  ? "cannot be printed without support"
                                                                     : "does not come out of the mould";
-  return fmt::format("the {} {}: {}, which moves its edges by up to about {:.2g} mm",
-                     saved ? "saved shape" : "initial shape", problem,
-                     is_averaged ? "it is averaged" : "its holes are widened", 1e3 * farthest);
+  const bool is_filled = has_holes(given) && !has_holes(fitted);
+  return fmt::format("the {} {}: {}, which {}", saved ? "saved shape" : "initial shape", problem,
+                     is_averaged ? "it is averaged" : "it is made to fit",
+                     is_filled ? "fills all its holes; smaller cells in [grid] may resolve them"
+                               : fmt::format("moves its edges by up to about {:.2g} mm", 1e3 * farthest));
 }
 
 template <int dim>
