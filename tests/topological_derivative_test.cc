@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "tests/support.h"
 #include "wheelwright/mechanics/elasticity/orthotropic_law.h"
@@ -13,6 +14,8 @@
 #include "wheelwright/quantities/functionals/rolling_resistance.h"
 #include "wheelwright/quantities/functionals/uniformity_dual.h"
 #include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/ball.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {
@@ -20,19 +23,25 @@ namespace {
 using testing::holes;
 using testing::paper_model;
 
+template <size_t n>
+double product(const std::array<double, n>& a, const std::array<double, n>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
 /// Half of sigma:eps.
-class EnergyDensity : public DensityOfStrain<2> {
+template <int dim>
+class EnergyDensity : public DensityOfStrain<dim> {
  public:
-  Value at(const Voigt<2>& e, const MaterialLaw<2>& law) const override {
-    const Voigt<2> sigma = stress<2>(law, e);
-    return {0.5 * (sigma[0] * e[0] + sigma[1] * e[1] + sigma[2] * e[2]), sigma};
+  typename DensityOfStrain<dim>::Value at(const Voigt<dim>& e, const MaterialLaw<dim>& law) const override {
+    const Voigt<dim> sigma = stress<dim>(law, e);
+    return {0.5 * product(sigma, e), sigma};
   }
 };
 
 const Material some{2.7e6, 0.31}, thin{2.7e6, 0.31, Plane::stress};
 const Voigt<2> some_strain{0.013, -0.004, 0.009};
 
-double product(const Voigt<2>& a, const Voigt<2>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+const Voigt<3> some_strain_in_space{0.013, -0.004, 0.002, -0.003, 0.007, 0.009};
 
 TEST(SmallHole, HasNoTraction) {
   for (const Material& material : {some, thin})
@@ -84,6 +93,59 @@ TEST(SmallHole, TakesTheEnergyOfInglisAndLame) {
               1e-9 * s * s / e);
 }
 
+const std::vector<Vec<3>> directions{
+    {1, 0, 0}, {0, 0, 1}, {0.6, 0, 0.8}, {2.0 / 3, -1.0 / 3, 2.0 / 3}, {-0.48, 0.64, 0.6}};
+
+TEST(SmallHole, HasNoTractionInSpace) {
+  for (const Vec<3>& n : directions) {
+    Voigt<3> all = strain_around_hole(some, some_strain_in_space, n);
+    for (int k = 0; k < 6; ++k) all[k] += some_strain_in_space[k];
+    const Vec<3> t = traction<3>(stress<3>(some, all), n);
+    for (int d = 0; d < 3; ++d) EXPECT_NEAR(t[d], 0, 1e-9 * some.mu());
+  }
+}
+
+/// The divergence of the stress by central differences, which are of second order.
+TEST(SmallHole, IsInEquilibriumInSpace) {
+  const auto stress_at = [](const Vec<3>& x) {
+    return stress<3>(some, strain_around_hole(some, some_strain_in_space, x));
+  };
+  constexpr int component[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
+  const double h = 1e-4;
+  for (const Vec<3>& n : directions)
+    for (const double r : {1.0, 1.7}) {
+      Vec<3> divergence{};
+      for (int j = 0; j < 3; ++j) {
+        Vec<3> after = r * n, before = r * n;
+        after[j] += h;
+        before[j] -= h;
+        const Voigt<3> later = stress_at(after), earlier = stress_at(before);
+        for (int i = 0; i < 3; ++i)
+          divergence[i] += (later[component[i][j]] - earlier[component[i][j]]) / (2 * h);
+      }
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(divergence[i], 0, 1e-5 * some.mu() * 0.01 / r);
+    }
+}
+
+/// On its surface both have the same strain along it, so that the hole moves as the material around it.
+TEST(SmallHole, StretchesAsTheMaterialAtItsSurface) {
+  const Voigt<3> hole = strain_of_hole<3>(some, some_strain_in_space);
+  for (const Vec<3>& n : directions) {
+    Voigt<3> outside = strain_around_hole(some, some_strain_in_space, n);
+    for (int k = 0; k < 6; ++k) outside[k] += some_strain_in_space[k] - hole[k];
+    const Vec<3> a{n[1], -n[0], 0}, b{n[2], 0, -n[0]};  // along the surface
+    for (const auto& [s, t] : {std::pair(a, a), std::pair(a, b), std::pair(b, b)}) {
+      const Voigt<3> along{s[0] * t[0],
+                           s[1] * t[1],
+                           s[2] * t[2],
+                           0.5 * (s[1] * t[2] + s[2] * t[1]),
+                           0.5 * (s[0] * t[2] + s[2] * t[0]),
+                           0.5 * (s[0] * t[1] + s[1] * t[0])};
+      EXPECT_NEAR(product(outside, along), 0, 1e-14);
+    }
+  }
+}
+
 TEST(SmallHole, OfThreeDimensionsStretchesAsLamesAndGoodiersCavity) {
   const double nu = some.poissons_ratio, s = 1e4, strain = s * (1 - 2 * nu) / some.youngs_modulus;
   const Voigt<3> all_round{strain, strain, strain, 0, 0, 0};
@@ -99,10 +161,15 @@ TEST(TopologicalDerivative, OfTheEnergyAsADensityIsKnown) {
   for (const Material& material : {some, thin}) {
     const Voigt<2> sigma = stress<2>(material, some_strain), hole = strain_of_hole<2>(material, some_strain);
     const double expected = -0.5 * product(sigma, hole), one[] = {1};
-    EXPECT_NEAR(
-        removed_density(EnergyDensity(), {one_strain<2>(some_strain), 1, IsotropicLaw<2>(material)}, one),
-        expected, 1e-9 * std::abs(expected));
+    EXPECT_NEAR(removed_density<2>(EnergyDensity<2>(),
+                                   {one_strain<2>(some_strain), 1, IsotropicLaw<2>(material)}, one),
+                expected, 1e-9 * std::abs(expected));
   }
+  const Voigt<3> sigma = stress<3>(some, some_strain_in_space);
+  const double expected = -0.5 * product(sigma, strain_of_hole<3>(some, some_strain_in_space)), one[] = {1};
+  EXPECT_NEAR(removed_density<3>(EnergyDensity<3>(),
+                                 {one_strain<3>(some_strain_in_space), 1, IsotropicLaw<3>(some)}, one),
+              expected, 1e-9 * std::abs(expected));
 }
 
 /// A wheel without symmetry; three holes in the sector.
@@ -256,6 +323,86 @@ TEST(TopologicalDerivative, IsTheLimitOfFiniteHolesInAnOrthotropicMaterial) {
   EXPECT_NEAR(limit, expected[0][0], 0.02 * expected[0][0]);
   for (const size_t k : {0, 1})
     EXPECT_LT(std::abs(found[k + 1][0] - expected[0][0]), 0.6 * std::abs(found[k][0] - expected[0][0]));
+}
+
+/// The sector of a wheel in space without symmetry, with three balls and more.
+LevelSet<3> lopsided_in_space(const PolarGrid<3>& grid, std::vector<Sphere> more = {}) {
+  const double a = grid.sector_angle();
+  auto psi = make_level_set<3>(Lattice<3>(grid, 2), {});
+  for (const Sphere& hole :
+       {Sphere{0.2471, 0.06 * a, 0.031, 0.0253}, Sphere{0.2863, 0.3 * a, 0.0801, 0.0161}})
+    psi = with_hole(std::move(psi), hole);
+  for (const Sphere& hole : more) psi = with_hole(std::move(psi), hole);
+  return psi;
+}
+
+RollingModel<3> lopsided_model_in_space(std::array<int, 3> cells) {
+  RollingModel<3> model;
+  model.grid = {0.20, 0.34, 0.12, 16, cells};
+  model.degree = 2;
+  model.materials = Material{200e6, 0.3};
+  model.load = 2943;
+  model.contact.friction = 0.4;
+  model.torque = 200;
+  model.distributed = {.body_force = {3e4, 1e4, 2e4}, .hole_pressure = 0};
+  model.n_positions = 2;
+  model.contact_points = 3;
+  model.tread.annulus_points = 2;
+  return model;
+}
+
+/// What changes by two balls tend to, whose deviation is of third order in the radius.
+double limit_in_space(double larger, double change_by_larger, double smaller, double change_by_smaller) {
+  const double a = std::pow(larger, 3), b = std::pow(smaller, 3);
+  return (a * change_by_smaller - b * change_by_larger) / (a - b);
+}
+
+/// On a wheel in space without symmetry, with friction, torque and body force: of the energy, and of an
+/// integral of stresses, which finer balls approach with a larger deviation.
+TEST(TopologicalDerivative, SlowIsTheLimitOfFiniteBalls) {
+  const auto problem = RollingProblem<3>::create(lopsided_model_in_space({14, 12, 8}));
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const PolarGrid<3>& grid = problem->model().grid;
+  const std::vector<ShapeFunction<3>> functions{
+      {"energy", {{1, std::make_shared<StrainEnergy<3>>()}}},
+      {"stress", {{1, std::make_shared<PeakVonMises<3>>(0, PeakNorm{.exponent = 4, .correction = 1})}}}};
+  const auto values_of = [&](const LevelSet<3>& psi) {
+    const auto evaluated = evaluate<3>(*problem, functions, psi);
+    EXPECT_TRUE(evaluated) << evaluated.failure().detail;
+    std::vector<double> values;
+    for (const auto& f : evaluated->evaluation.functions) values.push_back(f.value);
+    return values;
+  };
+  const Vec<3> place{0.2731, 0.68 * grid.sector_angle(), 0.052};
+  const auto psi = lopsided_in_space(grid);
+  const auto before = values_of(psi);
+  const std::vector<double> radii{0.028, 0.024, 0.02, 0.016};
+  std::vector<std::vector<double>> found;
+  for (const double r : radii) {
+    found.push_back(values_of(lopsided_in_space(grid, {{place[0], place[1], place[2], r}})));
+    for (size_t f = 0; f < functions.size(); ++f)
+      found.back()[f] = (found.back()[f] - before[f]) / ball_measure<3>(r);
+  }
+  const auto state = testing::all_states<3>(*problem, psi);
+  ASSERT_TRUE(state) << state.failure().detail;
+  const State<3>* const only = state->get();
+  const Vec<3> h = grid.cell_size(0);
+  std::array<int, 3> cell;
+  Vec<3> xi;
+  for (int d = 0; d < 3; ++d) {
+    const double x = (place[d] - (d == 0 ? grid.inner_radius : 0)) / h[d];
+    cell[d] = static_cast<int>(x);
+    xi[d] = x - cell[d];
+  }
+  const std::vector<MaterialPoint<3>> points{{grid.cell_index(cell), xi}};
+  const auto expected =
+      topological_derivatives<3>(*problem, {}, functions, psi, std::span(&only, 1), points, 1e-3);
+  ASSERT_TRUE(expected) << expected.failure().detail;
+  const auto limit_of = [&](size_t f, size_t larger, size_t smaller) {
+    return limit_in_space(radii[larger], found[larger][f], radii[smaller], found[smaller][f]);
+  };
+  EXPECT_NEAR(limit_of(0, 0, 2), (*expected)[0][0], 0.02 * std::abs((*expected)[0][0]));
+  EXPECT_NEAR(limit_of(1, 1, 3), (*expected)[1][0], 0.12 * std::abs((*expected)[1][0]));
 }
 
 TEST(TopologicalDerivative, SlowIsTheLimitOfFiniteHolesAtSeveralPlaces) {

@@ -300,9 +300,11 @@ std::vector<Key<Optimizer>> feature_keys() {
                   "stress; gaps are at least twice as wide; 0 means no minimum to the end"},
       {.name = "nucleation",
        .field = choice<&Optimizer::nucleation>({"never", "converged"}),
-       .meaning = "when new holes are created. converged: when the search has converged, small holes are "
-                  "created where they lower J most according to the topological derivative; if J has not "
-                  "fallen when it has converged again, they are removed and the run ends; only in 2D"}};
+       .meaning =
+           "when new holes are created. converged: when the search has converged, small holes are "
+           "created where they lower J most according to the topological derivative; if J has not "
+           "fallen when it has converged again, they are removed and the run ends; in 3D balls, only with "
+           "made = \"free\""}};
 }
 
 std::vector<Key<Optimizer>> optimizer_keys() {

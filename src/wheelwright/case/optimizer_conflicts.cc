@@ -30,14 +30,15 @@ void check_method(const Case& c, Conflicts& found) {
   if (c.volume.control == VolumeControl::paper) refuse(key_of(&Volume::control), "\"exact\"");
 }
 
-/// The topological derivative is that of a plane hole without load on its edge.
+/// The topological derivative is that of a round hole, or a ball, without load on its boundary.
 void check_nucleation(const Case& c, Conflicts& found) {
   if (c.optimizer.nucleation == NucleationTime::never) return;
   const auto refuse = [&](CaseKeys keys, std::string problem) {
     found.push_back({std::move(keys), std::move(problem), "use nucleation = \"never\""});
   };
-  if (c.wheel.dimension == 3)
-    refuse({key_of(&Optimizer::nucleation), key_of(&Wheel::dimension)}, "nucleation is supported only in 2D");
+  if (c.wheel.dimension == 3 && c.optimizer.made != Manufacture::free)
+    refuse({key_of(&Optimizer::nucleation), key_of(&Optimizer::made)},
+           "new holes in 3D are balls, which are only made in free shapes");
   const std::vector<SingleLoad> loads = single_loads(c);
   const auto has_pressure = [](const SingleLoad& single) { return single.c.load.hole_pressure != 0; };
   if (const auto pressed = std::ranges::find_if(loads, has_pressure); pressed != loads.end())
@@ -45,7 +46,10 @@ void check_nucleation(const Case& c, Conflicts& found) {
            "nucleation does not support hole pressure");
   const std::vector<PlacedMaterial> ring = placed_materials(c);
   const auto orthotropic = std::ranges::find_if(ring, &PlacedMaterial::orthotropic);
-  if (orthotropic != ring.end() && optimizes_stresses(c))
+  if (orthotropic != ring.end() && c.wheel.dimension == 3)
+    refuse({key_of(&Optimizer::nucleation), orthotropic->youngs_modulus_key()},
+           "the effect of new holes in 3D is known only in isotropic materials");
+  else if (orthotropic != ring.end() && optimizes_stresses(c))
     refuse({key_of(&Optimizer::nucleation), key_of(&Objective::minimize), orthotropic->youngs_modulus_key()},
            "the effect of new holes on stresses is known only in isotropic materials");
   if (optimizes_temperatures(c))

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "wheelwright/mechanics/elasticity/orthotropic_law.h"
+#include "wheelwright/mechanics/elasticity/voigt_indices.h"
 
 namespace wheelwright {
 namespace {
@@ -62,6 +63,38 @@ Voigt<2> strain_around_hole(const Material& material, const Voigt<2>& distant, c
   const double centre = 0.5 * (radial + azimuthal), half = 0.5 * (radial - azimuthal);
   return strain_of(material, {centre + half * cosine - shear * sine, centre - half * cosine + shear * sine,
                               half * sine + shear * cosine});
+}
+
+/// With the deviator E, s = E x and q = x . s, the displacement is
+///   a x / r^3 + b (k q x / r^5 + s / r^3) + c (2 s / r^5 - 5 q x / r^7),
+/// which satisfies Navier's equations for every a, b and c; these make the traction at r = 1 vanish.
+Voigt<3> strain_around_hole(const Material& material, const Voigt<3>& distant, const Vec<3>& place) {
+  const double lambda = material.lambda(), mu = material.mu();
+  const double mean = (distant[0] + distant[1] + distant[2]) / 3;
+  const double k = 1.5 * (lambda + mu) / mu, a = (3 * lambda + 2 * mu) / (4 * mu) * mean,
+               b = 10 / (5 + 6 * k), c = k * b / 5;
+  const Vec<3>& x = place;
+  Voigt<3> deviator;
+  Vec<3> s{};
+  for (int v = 0; v < n_strains<3>; ++v) {
+    const auto [i, j] = voigt_indices<3>()[v];
+    deviator[v] = i == j ? distant[v] - mean : 0.5 * distant[v];
+    s[i] += deviator[v] * x[j];
+    if (i != j) s[j] += deviator[v] * x[i];
+  }
+  const double q = dot<3>(x, s), r2 = 1 / dot<3>(x, x), r3 = r2 * std::sqrt(r2), r5 = r3 * r2, r7 = r5 * r2,
+               r9 = r7 * r2;
+  Voigt<3> strain;
+  for (int v = 0; v < n_strains<3>; ++v) {
+    const auto [i, j] = voigt_indices<3>()[v];
+    const double unit = i == j ? 1 : 0, xx = x[i] * x[j], sx = s[i] * x[j] + s[j] * x[i];
+    const double component =
+        a * (unit * r3 - 3 * xx * r5) +
+        b * (k * (sx * r5 + q * unit * r5 - 5 * q * xx * r7) + deviator[v] * r3 - 1.5 * sx * r5) +
+        c * (2 * deviator[v] * r5 - 10 * sx * r7 - 5 * q * unit * r7 + 35 * q * xx * r9);
+    strain[v] = i == j ? component : 2 * component;
+  }
+  return strain;
 }
 
 template decltype(strain_of_hole<2>) strain_of_hole<2>;

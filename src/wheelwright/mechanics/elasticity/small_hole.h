@@ -26,7 +26,8 @@ Voigt<dim> strain_of_hole(const Material& material, const Voigt<dim>& distant);
 Voigt<2> strain_of_hole(const OrthotropicMaterial& material, const Voigt<2>& distant);
 
 /// The strain that the hole adds to the distant one at a place outside of it. `place` is counted from the
-/// centre of the hole in units of its radius (Kirsch 1898).
+/// centre of the hole in units of its radius (Kirsch 1898; Goodier 1933).
 Voigt<2> strain_around_hole(const Material& material, const Voigt<2>& distant, const Vec<2>& place);
+Voigt<3> strain_around_hole(const Material& material, const Voigt<3>& distant, const Vec<3>& place);
 
 }  // namespace wheelwright

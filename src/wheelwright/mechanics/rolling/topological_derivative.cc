@@ -70,17 +70,15 @@ class Derivatives {
                       const Vec<dim>& xi) const {
     const auto integrals = integrals_in_row<dim>(all, problem_.model().grid, place[0]);
     if (integrals.empty()) return 0;
+    const Matrix of_cases = product(displacement_.weights, Op::none, strain_u, Op::transpose);
+    const int n_sectors = s_.ring.n_sectors();
+    const StrainsAtPoint<dim> point{strain_columns<dim>(of_cases, 0), n_sectors, law, place, xi};
     double sum = 0;
-    if constexpr (dim == 2) {
-      const Matrix of_cases = product(displacement_.weights, Op::none, strain_u, Op::transpose);
-      const int n_sectors = s_.ring.n_sectors();
-      const StrainsAtPoint<2> point{strain_columns<2>(of_cases, 0), n_sectors, law, place, xi};
-      for (const auto& [density, factors] : integrals) {
-        std::vector<double> of_case;
-        for (int j = 0; j < point.n_cases(); ++j)
-          of_case.push_back(s_.positions.multiplicities[j / n_sectors] * factors[j / n_sectors]);
-        sum += removed_density(*density, point, of_case);
-      }
+    for (const auto& [density, factors] : integrals) {
+      std::vector<double> of_case;
+      for (int j = 0; j < point.n_cases(); ++j)
+        of_case.push_back(s_.positions.multiplicities[j / n_sectors] * factors[j / n_sectors]);
+      sum += removed_density(*density, point, of_case);
     }
     return sum;
   }
@@ -122,9 +120,6 @@ std::optional<Failure> unsupported(const RollingModel<dim>& model,
       return Failure{FailureReason::unsupported_model,
                      "the derivative of stresses to small holes is known for isotropic materials only"};
   }
-  if (dim == 3 && has_integrals)
-    return Failure{FailureReason::unsupported_model,
-                   "the derivative of stresses to small holes is not known in three dimensions"};
   return {};
 }
 

@@ -24,10 +24,12 @@ bool has_small_holes(const MaterialLaw<dim>& law) {
 }
 
 /// The change of the sum over load cases j of factor_j int M_j dx by a small round traction-free hole, in
-/// addition to the contribution of the adjoint problem, per area of the hole: the integral of M(eps + e) -
-/// M(eps) - M'(eps) e round the hole, with e = what the hole adds to the strain, less M(eps) and M'(eps) (A
-/// eps - eps) of the hole itself (Amstutz and Novotny 2010, for any density). The law must be isotropic.
-double removed_density(const MaterialDensity<2>& density, const StrainsAtPoint<2>& point,
+/// addition to the contribution of the adjoint problem, per area or volume of the hole: the integral of M(eps
+/// + e) - M(eps) - M'(eps) e round the hole, with e = what the hole adds to the strain, less M(eps) and
+/// M'(eps) (A eps - eps) of the hole itself (Amstutz and Novotny 2010, for any density). The law must be
+/// isotropic.
+template <int dim>
+double removed_density(const MaterialDensity<dim>& density, const StrainsAtPoint<dim>& point,
                        std::span<const double> factors);
 
 }  // namespace wheelwright

@@ -61,9 +61,12 @@ std::optional<double> gain_at_edges(const OptimizerOptions& options, const Evolv
   return length > 0 ? std::optional(sum / length) : std::nullopt;
 }
 
-std::vector<Circle> paying_holes(const OptimizerOptions& options, const Evolver<2>& evolver,
-                                 const OptimizationState<2>& state, std::span<const MaterialPoint<2>> points,
-                                 const std::vector<std::vector<double>>& derivatives, HoleRules rules) {
+template <int dim>
+std::vector<RoundHole<dim>> paying_holes(const OptimizerOptions& options, const Evolver<dim>& evolver,
+                                         const OptimizationState<dim>& state,
+                                         std::span<const MaterialPoint<dim>> points,
+                                         const std::vector<std::vector<double>>& derivatives,
+                                         HoleRules rules) {
   const auto weights = lagrangian_weights(options, state);
   const auto gain = gain_at_edges(options, evolver, state);
   const bool is_held = options.measure_control != MeasureControl::free;
@@ -71,30 +74,32 @@ std::vector<Circle> paying_holes(const OptimizerOptions& options, const Evolver<
   rules.must_pay = gain || !is_held;
   if (is_held && !gain) {
     if (excess <= measure_tolerance * state.target_measure) return {};
-    rules.max_area = std::min(rules.max_area, excess);
+    rules.max_measure = std::min(rules.max_measure, excess);
   }
   std::vector<double> costs(points.size(), is_held && gain ? -*gain : 0.0);
   for (size_t f = 0; f < derivatives.size(); ++f)
     for (size_t i = 0; i < costs.size(); ++i) costs[i] += weights[f] * derivatives[f][i];
-  return best_places(state.shape, {points, costs}, rules);
+  return best_places<dim>(state.shape, {points, costs}, rules);
 }
 
-std::string nucleation_text(std::span<const Circle> holes) {
+template <int dim>
+std::string nucleation_text(std::span<const RoundHole<dim>> holes) {
   std::string text = fmt::format("nucleation of {} {} per sector, of radius {:.4g} mm, at", holes.size(),
                                  holes.size() == 1 ? "hole" : "holes", holes.front().hole_radius * 1e3);
-  for (const Circle& hole : holes)
-    text += fmt::format("{} {}", &hole == holes.data() ? "" : " and",
-                        place_text<2>({hole.centre_radius, hole.centre_azimuth}));
+  for (const auto& hole : holes)
+    text += fmt::format("{} {}", &hole == holes.data() ? "" : " and", place_text<dim>(centre(hole)));
   return text;
 }
 
-template decltype(before_nucleation<2>) before_nucleation<2>;
-template decltype(has_paid<2>) has_paid<2>;
-template decltype(lagrangian_weights<2>) lagrangian_weights<2>;
-template decltype(gain_at_edges<2>) gain_at_edges<2>;
-template decltype(before_nucleation<3>) before_nucleation<3>;
-template decltype(has_paid<3>) has_paid<3>;
-template decltype(lagrangian_weights<3>) lagrangian_weights<3>;
-template decltype(gain_at_edges<3>) gain_at_edges<3>;
+#define WHEELWRIGHT_INSTANTIATE(dim)                                  \
+  template decltype(before_nucleation<dim>) before_nucleation<dim>;   \
+  template decltype(has_paid<dim>) has_paid<dim>;                     \
+  template decltype(lagrangian_weights<dim>) lagrangian_weights<dim>; \
+  template decltype(gain_at_edges<dim>) gain_at_edges<dim>;           \
+  template decltype(paying_holes<dim>) paying_holes<dim>;             \
+  template decltype(nucleation_text<dim>) nucleation_text<dim>;
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 
 }  // namespace wheelwright

@@ -43,21 +43,25 @@ bool has_paid(const OptimizerOptions& options, const typename Nucleation<dim>::B
 template <int dim>
 std::vector<double> lagrangian_weights(const OptimizerOptions& options, const OptimizationState<dim>& state);
 
-/// The decrease of the objective per area of material added at the edges of the holes: minus the mean of the
-/// Lagrangian's shape gradient over the edges that are not held by a band. At an optimum of fixed measure
-/// this is the measure's multiplier. Empty without such edges.
+/// The decrease of the objective per area, or volume, of material added at the edges of the holes: minus the
+/// mean of the Lagrangian's shape gradient over the edges that are not held by a band. At an optimum of fixed
+/// measure this is the measure's multiplier. Empty without such edges.
 template <int dim>
 std::optional<double> gain_at_edges(const OptimizerOptions& options, const Evolver<dim>& evolver,
                                     const OptimizationState<dim>& state);
 
 /// The holes that pay most at the end of a search, by the topological derivatives of all functions at the
-/// points, [function][point]; empty if none does. If the measure is fixed, the area of a hole is added at the
+/// points, [function][point]; empty if none does. If the measure is fixed, that of a hole is added at the
 /// edges. While the measure still has to fall and no edges can move, the best holes are made in any case.
-std::vector<Circle> paying_holes(const OptimizerOptions& options, const Evolver<2>& evolver,
-                                 const OptimizationState<2>& state, std::span<const MaterialPoint<2>> points,
-                                 const std::vector<std::vector<double>>& derivatives, HoleRules rules);
+template <int dim>
+std::vector<RoundHole<dim>> paying_holes(const OptimizerOptions& options, const Evolver<dim>& evolver,
+                                         const OptimizationState<dim>& state,
+                                         std::span<const MaterialPoint<dim>> points,
+                                         const std::vector<std::vector<double>>& derivatives,
+                                         HoleRules rules);
 
 /// One readable line.
-std::string nucleation_text(std::span<const Circle> holes);
+template <int dim>
+std::string nucleation_text(std::span<const RoundHole<dim>> holes);
 
 }  // namespace wheelwright

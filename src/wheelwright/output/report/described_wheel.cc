@@ -11,6 +11,7 @@
 #include "wheelwright/mechanics/state/layer_measures.h"
 #include "wheelwright/output/report/heat_report.h"
 #include "wheelwright/quantities/functionals/quantities.h"
+#include "wheelwright/shape/evolution/narrowest_place.h"
 
 namespace wheelwright {
 namespace {
@@ -166,6 +167,18 @@ Expected<std::vector<UtilizedPoints>> utilized(const StateSolver<dim>& solver, c
 
 }  // namespace
 
+namespace {
+
+/// The narrowest place of walls or holes in 3D, whose ends are seen along the axle.
+std::optional<cad::Clearance> clearance(const LevelSet<3>& psi, Side side) {
+  const auto narrowest = narrowest_place(psi, side);
+  if (!narrowest) return {};
+  const Vec<2> middle{narrowest->middle[0], narrowest->middle[1]};
+  return cad::Clearance{narrowest->width, middle, middle};
+}
+
+}  // namespace
+
 template <int dim>
 Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>& psi) {
   if constexpr (dim == 2) {
@@ -174,8 +187,10 @@ Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim
     if (!outline) return outline.failure();
     return OutlineMeasures{cad::clearances(*outline, grid.n_sectors, cad::clearance_step * grid.outer_radius),
                            cad::roughness(*outline, grid.n_sectors, grid.resolution())};
+  } else {
+    return OutlineMeasures{.clearances = {clearance(psi, Side::material), clearance(psi, Side::holes)},
+                           .closed_cavities = closed_cavities(psi)};
   }
-  return OutlineMeasures{};
 }
 
 template <int dim>

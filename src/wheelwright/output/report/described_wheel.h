@@ -39,7 +39,8 @@ struct LoadedWheel {
 /// curves.
 struct OutlineMeasures {
   cad::Clearances clearances = {};
-  std::optional<cad::Roughness> roughness = {};  ///< at a cell of the grid; nothing without holes
+  std::optional<cad::Roughness> roughness = {};  ///< at a cell of the grid; nothing without holes, or in 3D
+  int closed_cavities = 0;                       ///< closed_cavities(); 0 in 2D
 };
 
 /// A number about a wheel, or in one line why it could not be computed, e.g. "newton_stalled: ...".
@@ -120,7 +121,8 @@ const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, con
 template <int dim>
 std::vector<std::string> load_cases_of(const DescribedWheel<dim>& wheel);
 
-/// Fails if no curves can be fitted.
+/// In 2D those of the curves fitted to the edges; fails if there are none. In 3D the narrowest places of the
+/// surface, without roughness.
 template <int dim>
 Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>& psi);
 

@@ -20,7 +20,7 @@ std::optional<double> named_value(const std::vector<NamedValue>& values, std::st
   return found == values.end() ? std::nullopt : std::optional(found->value);
 }
 
-/// Nothing unless it is measured on the curves fitted to the edges.
+/// Nothing unless it is measured on the edges.
 template <int dim>
 std::optional<KnownNumber> on_outline(const Quantity& quantity, const LevelSet<dim>& shape) {
   const bool is_wall = quantity == built_in("minimum_wall"), is_gap = quantity == built_in("minimum_gap"),
@@ -28,9 +28,8 @@ std::optional<KnownNumber> on_outline(const Quantity& quantity, const LevelSet<d
   if (!is_wall && !is_gap && !is_roughness) return {};
   const auto measured = outline_measures(shape);
   if (!measured) return measured.failure().what;
-  const auto& [clearances, roughness] = *measured;
-  if (is_roughness && roughness) return roughness->edge.turns;
-  const auto& clearance = is_wall ? clearances.wall : clearances.gap;
+  if (is_roughness && measured->roughness) return measured->roughness->edge.turns;
+  const auto& clearance = is_wall ? measured->clearances.wall : measured->clearances.gap;
   if (!is_roughness && clearance) return clearance->width;
   return std::string("the shape has none");
 }

@@ -58,24 +58,21 @@ Next Schedule<dim>::change_holes(StopReason reason) {
 
 template <int dim>
 Next Schedule<dim>::make_holes() {
-  if constexpr (dim == 2) {
-    const auto bench = session_.bench();
-    const OptimizationState<2>& state = session_.state();
-    const Evolver<2>& evolver = bench->optimizer.evolver();
-    const auto made = nucleated_shape(bench->study, bench->evaluate, evolver, state);
-    if (!made) return without_more_holes(made.failure());
-    if (!*made) {
-      session_.set_nucleation({.before = {}, .is_over = true});
-      return Next::end;
-    }
-    auto stage = session_.at((*made)->shape, bench->optimizer);
-    if (!stage) return without_more_holes(stage.failure());
-    stage->trial.events = evolver.changes(state.shape, stage->state.shape);
-    stage->nucleation = {.before = before_nucleation(bench->study.optimizer, state), .is_over = false};
-    enter<dim>(session_, journal_, *std::move(stage), ShapeReplaced{(*made)->text});
-    return Next::search;
+  const auto bench = session_.bench();
+  const OptimizationState<dim>& state = session_.state();
+  const Evolver<dim>& evolver = bench->optimizer.evolver();
+  const auto made = nucleated_shape<dim>(bench->study, bench->evaluate, evolver, state);
+  if (!made) return without_more_holes(made.failure());
+  if (!*made) {
+    session_.set_nucleation({.before = {}, .is_over = true});
+    return Next::end;
   }
-  return Next::end;
+  auto stage = session_.at((*made)->shape, bench->optimizer);
+  if (!stage) return without_more_holes(stage.failure());
+  stage->trial.events = evolver.changes(state.shape, stage->state.shape);
+  stage->nucleation = {.before = before_nucleation(bench->study.optimizer, state), .is_over = false};
+  enter<dim>(session_, journal_, *std::move(stage), ShapeReplaced{(*made)->text});
+  return Next::search;
 }
 
 /// Returns to the shape before the newest holes, with which the search ends. Holes that ran out of shapes may

@@ -14,12 +14,11 @@ namespace wheelwright {
 inline constexpr double least_cells_per_wall = 3;
 
 /// Warnings about an outline, each with its place: a wall or gap more than 1 % narrower than the case allows,
-/// an internal corner whose radius is more than 5 % smaller, and a wall of less than three cells that is not
-/// a band at rim or tread.
+/// an internal corner whose radius is more than 5 % smaller, a wall of less than three cells that is not a
+/// band at rim or tread, and closed cavities.
 std::vector<std::string> feature_warnings(const Case& c, const OutlineMeasures& measures);
 
-/// Walls, gaps and corners of the initial shape; in 3D of its section in the middle of the width. Fails if no
-/// curves can be fitted.
+/// outline_measures() of the initial shape.
 Expected<OutlineMeasures, cad::OutlineFault> initial_outline_measures(const Case& c);
 
 }  // namespace wheelwright

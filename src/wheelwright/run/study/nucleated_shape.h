@@ -9,8 +9,9 @@
 namespace wheelwright {
 
 /// A shape with new holes.
+template <int dim>
 struct NucleatedShape {
-  LevelSet<2> shape;
+  LevelSet<dim> shape;
   std::string text;  ///< readable description of the holes
 };
 
@@ -18,9 +19,9 @@ struct NucleatedShape {
 /// reached; empty if none pays. The holes are three cells wide, or as wide as the case's minimum gap, and
 /// leave two cells or its minimum wall between them. Solves the shape. Fails like the solution and the shift
 /// to the measure.
-Expected<std::optional<NucleatedShape>> nucleated_shape(const Study<2>& study,
-                                                        const ShapeOptimizer<2>::Evaluate& evaluate,
-                                                        const Evolver<2>& evolver,
-                                                        const OptimizationState<2>& state);
+template <int dim>
+Expected<std::optional<NucleatedShape<dim>>> nucleated_shape(
+    const Study<dim>& study, const typename ShapeOptimizer<dim>::Evaluate& evaluate,
+    const Evolver<dim>& evolver, const OptimizationState<dim>& state);
 
 }  // namespace wheelwright

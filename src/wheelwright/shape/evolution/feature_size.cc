@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "wheelwright/shape/evolution/edge_curvature.h"
 #include "wheelwright/shape/evolution/medial_balls.h"
 #include "wheelwright/shape/evolution/redistance.h"
+#include "wheelwright/shape/geometry/ball.h"
 #include "wheelwright/shape/geometry/cell_map.h"
 #include "wheelwright/shape/geometry/components.h"
 #include "wheelwright/shape/geometry/nearest_point.h"
@@ -43,13 +43,6 @@ std::vector<Vec<dim>> centres_of(const std::vector<MedialBall<dim>>& balls) {
   std::vector<Vec<dim>> centres;
   for (const auto& ball : balls) centres.push_back(ball.centre);
   return centres;
-}
-
-/// Area of a disk, or volume of a ball.
-template <int dim>
-double ball_measure(double radius) {
-  constexpr double pi = std::numbers::pi;
-  return dim == 2 ? pi * radius * radius : 4 * pi / 3 * radius * radius * radius;
 }
 
 /// The distance of nodes to the nearest of some points, including their images in the neighbouring sectors.

@@ -1,0 +1,63 @@
+#include "wheelwright/shape/evolution/narrowest_place.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "wheelwright/shape/geometry/shapes.h"
+
+namespace wheelwright {
+namespace {
+
+const PolarGrid<3> grid{0.20, 0.34, 0.12, 16, {28, 24, 20}};
+
+LevelSet<3> ring() { return make_level_set<3>(Lattice<3>(grid, 2), {}); }
+
+double sector() { return grid.sector_angle(); }
+
+TEST(NarrowestPlace, OfASolidRingIsNone) {
+  EXPECT_FALSE(narrowest_place(ring(), Side::material));
+  EXPECT_FALSE(narrowest_place(ring(), Side::holes));
+  EXPECT_EQ(closed_cavities(ring()), 0);
+}
+
+/// Between two balls, and the diameter of the smaller one.
+TEST(NarrowestPlace, IsBetweenTwoBallsAndInTheSmallerOne) {
+  auto psi = with_hole(ring(), Sphere{0.255, 0.5 * sector(), 0.055, 0.018});
+  psi = with_hole(std::move(psi), Sphere{0.289, 0.5 * sector(), 0.055, 0.010});
+  const auto wall = narrowest_place(psi, Side::material), gap = narrowest_place(psi, Side::holes);
+  ASSERT_TRUE(wall && gap);
+  EXPECT_NEAR(wall->width, 0.289 - 0.255 - 0.018 - 0.010, 3e-4);
+  EXPECT_NEAR(std::hypot(wall->middle[0], wall->middle[1]), 0.276, 1e-3);
+  EXPECT_NEAR(wall->middle[2], 0.055, 1e-3);
+  EXPECT_NEAR(gap->width, 0.020, 4e-4);
+  EXPECT_EQ(closed_cavities(psi), 2);
+}
+
+/// To each surface of the ring.
+TEST(NarrowestPlace, IsToTheNearestSurfaceOfTheRing) {
+  struct Placed {
+    double radius, height;
+    double wall;
+  };
+  for (const auto& [radius, height, wall] : {Placed{0.27, 0.026, 0.006}, Placed{0.27, 0.093, 0.007},
+                                             Placed{0.228, 0.06, 0.008}, Placed{0.311, 0.06, 0.009}}) {
+    const auto found =
+        narrowest_place(with_hole(ring(), Sphere{radius, 0.3 * sector(), height, 0.020}), Side::material);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->width, wall, 3e-4) << radius << " " << height;
+  }
+}
+
+/// A groove opens at the side face: it is no cavity, and its sides there are no thin walls.
+TEST(NarrowestPlace, OfGroovesIsTheDiscBetweenThem) {
+  auto psi = with_hole(ring(), Groove{0.22, 0.31, 0, 0.05, 0.01});
+  psi = with_hole(std::move(psi), Groove{0.22, 0.31, 0.12, 0.057, 0.01});
+  const auto wall = narrowest_place(psi, Side::material);
+  ASSERT_TRUE(wall);
+  EXPECT_NEAR(wall->width, 0.12 - 0.05 - 0.057, 2e-4);
+  EXPECT_EQ(closed_cavities(psi), 0);
+}
+
+}  // namespace
+}  // namespace wheelwright
