@@ -11,6 +11,7 @@ import json
 import os
 import tempfile
 import uuid
+import warnings
 from collections.abc import Callable
 from concurrent.futures import Executor
 from pathlib import Path
@@ -107,7 +108,9 @@ class _Stage:
             future = self._client.submit(run_piece, *arguments)
         else:
             key = f"{self._progression}-{name}-{uuid.uuid4()}"  # by which the dashboard groups tasks
-            future = self._client.submit(run_piece, *arguments, key=key)
+            with warnings.catch_warnings():  # data scattered to a worker, as Dask advises, is lost with it
+                warnings.filterwarnings("ignore", "Large object")
+                future = self._client.submit(run_piece, *arguments, key=key)
         self._futures[name] = future
         future.add_done_callback(lambda done: self._done.put((name, done)))
 
