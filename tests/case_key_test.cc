@@ -121,8 +121,8 @@ TEST(CaseKey, EveryMemberOfAShapeHasAKey) {
   const auto& [tapered, tapered_center, profile, tapered_phase] = t;
   expect_keys(t, tapered, tapered_center, profile, tapered_phase);
   const HoleGroove g;
-  const auto& [inner_side, outer_side, depth, fillet, side] = g;
-  expect_keys(g, inner_side, outer_side, depth, fillet, side);
+  const auto& [inner_side, outer_side, depth, outer_depth, fillet, side] = g;
+  expect_keys(g, inner_side, outer_side, depth, outer_depth, fillet, side);
   const SpokeShape k;
   const auto& [order, as, kind, spokes, thickness, angle, bend, spread, fork, inner, outer, spoke_phase] = k;
   expect_keys(k, as, kind, spokes, thickness, angle, bend, spread, fork, inner, outer, spoke_phase);

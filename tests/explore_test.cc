@@ -25,6 +25,7 @@
 #include "wheelwright/design/explore/workers.h"
 #include "wheelwright/design/starts/draft.h"
 #include "wheelwright/design/starts/random.h"
+#include "wheelwright/design/starts/solid_draft.h"
 #include "wheelwright/design/starts/start.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/quantities/analysis/finer_grid.h"
@@ -129,11 +130,15 @@ TEST(Starts, OfOtherRingsAreValid) {
                       {0.7}, 5, 10);
 }
 
-TEST(Starts, InThreeDimensionsAreThoseOfThePlane) {
+const std::string solid_wheel =
+    "[wheel]\ndimension = 3\n[contact]\nquadrature_points = 3\n" + usual_wheel + "axial_cells = 2\n";
+
+TEST(Starts, OfAnExtrudedWheelAreThoseOfThePlane) {
   const Case plane = case_of(usual_wheel);
-  const Case solid = case_of("[wheel]\ndimension = 3\n[contact]\nquadrature_points = 3\n" + usual_wheel +
-                             "axial_cells = 2\n");
-  for (int number = 0; number < n_kinds_of_starts; ++number) {
+  Case solid = case_of(solid_wheel);
+  solid.optimizer.made = Manufacture::extruded;
+  EXPECT_EQ(kinds_of_starts(solid), kinds_of_starts(plane));
+  for (int number = 0; number < 10; ++number) {
     const auto flat = draw_start(plane, {0.66}, 3, number).start,
                extruded = draw_start(solid, {0.66}, 3, number).start;
     ASSERT_TRUE(flat && extruded) << number;
@@ -145,12 +150,159 @@ TEST(Starts, InThreeDimensionsAreThoseOfThePlane) {
   }
 }
 
-TEST(Starts, OfATurnedWheelAreRefused) {
-  Case c = case_of("[wheel]\ndimension = 3\n[contact]\nquadrature_points = 3\n" + usual_wheel);
-  c.optimizer.made = Manufacture::turned;
-  const auto designs = planned_designs(c, {.starts = 2, .quantities = {}});
-  ASSERT_FALSE(designs);
-  EXPECT_NE(designs.failure().detail.find("turned"), std::string::npos);
+/// A coarse wheel in 3D, made in one of the ways.
+Case coarse_solid(Manufacture made) {
+  Case c = case_of(R"(
+[wheel]
+dimension = 3
+[contact]
+quadrature_points = 3
+[grid]
+radial_cells = 14
+angular_cells = 144
+axial_cells = 6
+[volume]
+target = 0.7
+[optimizer]
+rim_band = 0.0101
+tread_band = 0.0201
+[[holes.groove]]
+inner_radius = 0.222
+outer_radius = 0.318
+depth = 0.033
+)");
+  c.optimizer.made = made;
+  return c;
+}
+
+/// The starts of a case in 3D, all of which are valid, of the volume asked for, and not changed by fitting.
+std::vector<Start> valid_solid_starts(const Case& c, std::uint64_t seed, int n) {
+  std::vector<Start> result;
+  for (int number = 0; number < n; ++number) {
+    const auto start = draw_start(c, {0.7}, seed, number).start;
+    if (!start) {
+      ADD_FAILURE() << "none with number " << number;
+      continue;
+    }
+    SCOPED_TRACE(start->text);
+    EXPECT_TRUE(parse_case(to_toml(start->source), "start.toml").value);
+    EXPECT_TRUE(lost_on_the_grid<3>(start->source).empty());
+    EXPECT_NEAR(initial_volume(start->source), 0.7, 0.01);
+    EXPECT_EQ(draw_start(c, {0.7}, seed, number).start->source, start->source);
+    result.push_back(*start);
+  }
+  return result;
+}
+
+/// Heights of material and hole along lines parallel to the axle: calls line(values) for each of a few.
+template <class Line>
+void for_each_line(const Case& c, Line line) {
+  const LevelSet<3> psi = initial_shape<3>(c);
+  const int n = c.grid.axial_cells * psi.lattice.degree();
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+    auto place = psi.lattice.node_position(node);
+    if (place[2] != 0) continue;
+    std::vector<double> values;
+    for (place[2] = 0; place[2] <= n; ++place[2]) values.push_back(psi.values[psi.lattice.node_index(place)]);
+    line(values);
+  }
+}
+
+/// How often material begins along the values, from a hole.
+int beginnings(const std::vector<double>& values) {
+  int n = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) n += values[i] < 0 && (i == 0 || values[i - 1] >= 0);
+  return n;
+}
+
+TEST(Starts, OfATurnedWheelAreBodiesOfRevolution) {
+  const Case c = coarse_solid(Manufacture::turned);
+  std::set<std::string> texts;
+  for (const Start& start : valid_solid_starts(c, 1, 6)) {
+    texts.insert(start.text);
+    EXPECT_FALSE(start.source.holes.grooves.empty());
+    EXPECT_EQ(start.source.holes, Holes{.grooves = start.source.holes.grooves}) << start.text;
+    EXPECT_EQ(start.source.shapes, Shapes{}) << start.text;
+    EXPECT_EQ(start.source.grid.angular_cells, c.grid.angular_cells);
+    EXPECT_EQ(start.source.wheel.sectors, c.wheel.sectors);
+  }
+  EXPECT_EQ(texts.size(), 6u);
+}
+
+TEST(Starts, OfAFreeWheelIn3DAreOfAllKinds) {
+  const Case c = coarse_solid(Manufacture::free);
+  const std::vector<StartKind> kinds = kinds_of_starts(c);
+  EXPECT_EQ(std::set<StartKind>(kinds.begin(), kinds.end()).size(), 14u);
+  int discs = 0, tapered = 0, of_the_plane = 0;
+  for (const Start& start : valid_solid_starts(c, 2, static_cast<int>(kinds.size()))) {
+    discs += !start.source.holes.grooves.empty();
+    tapered += !start.source.holes.tapered.empty();
+    of_the_plane += start.source.holes.grooves.empty() && start.source.holes.tapered.empty();
+  }
+  EXPECT_GE(discs, 4);
+  EXPECT_GE(tapered, 1);
+  EXPECT_GE(of_the_plane, 9);
+}
+
+// Along every line parallel to the axle there is one piece of material at most, and it contains the plane.
+TEST(Starts, OfAMouldedWheelComeOutOfIt) {
+  for (const double plane : {0., 0.04, 0.06}) {
+    Case c = coarse_solid(Manufacture::moulded);
+    c.optimizer.parting_plane = plane;
+    c.optimizer.draft = 0.03;
+    const int at = static_cast<int>(std::lround(plane / (c.wheel.width / c.grid.axial_cells)));
+    for (const Start& start : valid_solid_starts(c, 3, 9))
+      for_each_line(start.source, [&](const std::vector<double>& values) {
+        EXPECT_LE(beginnings(values), 1) << start.text;
+        const bool has_material = std::ranges::any_of(values, [](double x) { return x < -1e-9; });
+        if (has_material) {
+          EXPECT_LT(values[at * level_set_degree(c)], 1e-9) << start.text;
+        }
+      });
+  }
+}
+
+TEST(Starts, OfAPrintedWheelStandOnThePlate) {
+  for (const SideFace plate : {SideFace::smaller_z, SideFace::larger_z}) {
+    Case c = coarse_solid(Manufacture::printed);
+    c.holes.grooves[0].side = plate == SideFace::smaller_z ? GrooveSide::larger_z : GrooveSide::smaller_z;
+    c.optimizer.stands_on = plate;
+    bool has_disc = false;
+    for (const Start& start : valid_solid_starts(c, 4, 9))
+      for (const HoleGroove& groove : start.source.holes.grooves) {
+        EXPECT_EQ(groove.side, c.holes.grooves[0].side) << start.text;
+        has_disc = true;
+      }
+    EXPECT_TRUE(has_disc);
+  }
+}
+
+TEST(Drafts, DiscsKeepTheirWallUpToTheLargestSize) {
+  const DraftSpace space{.inner = 0.21, .outer = 0.33, .wall = 0.006, .sectors = 1};
+  Random random(4, 2);
+  for (int k = 0; k < 400; ++k) {
+    AxialSpace across{.width = 0.12, .wall = 0.02, .sectors = 16};
+    if (k % 2 == 1) across.kept = random.uniform(0, 0.12);
+    const auto draft = draft_disc(space, across, random, static_cast<DiscKind>(k / 2 % 4));
+    if (!draft) continue;
+    Case c;
+    draft->draw(c, draft->most);
+    for (const bool is_outer : {false, true}) {
+      double low = 0, high = across.width;
+      for (const HoleGroove& groove : c.holes.grooves) {
+        const double depth = is_outer ? groove.outer_depth.value_or(groove.depth) : groove.depth;
+        if (groove.side != GrooveSide::larger_z) low = depth;
+        if (groove.side != GrooveSide::smaller_z) high = across.width - depth;
+        EXPECT_GE(groove.inner_radius, space.inner);
+        EXPECT_LE(groove.outer_radius, space.outer);
+      }
+      EXPECT_GE(high - low, across.wall * (1 - 1e-9)) << draft->text;
+      if (across.kept) {
+        EXPECT_GE(*across.kept - low, -1e-9) << draft->text;
+        EXPECT_GE(high - *across.kept, -1e-9) << draft->text;
+      }
+    }
+  }
 }
 
 TEST(Costs, ManyDesignsRunAtOnceOnlyIfTheirMemoryIsThere) {

@@ -71,6 +71,54 @@ TEST(Groove, HasItsVolume) {
   EXPECT_NEAR(cut(lattice.grid().width) / expected, 1, 2e-3);
 }
 
+// Without fillets, Pappus; with them, the area of its corners: r^2 (cot(a / 2) - (pi - a) / 2) at angle a.
+TEST(Groove, WithALeaningFloorHasItsVolume) {
+  using std::numbers::pi;
+  const Lattice<3> lattice(grid_of(16, 12), 2);
+  const LevelSet<3> full = make_level_set<3>(lattice, std::span<const Circle>{});
+  const double inner = 0.23, outer = 0.31, width = outer - inner, depth = 0.03, deepest = 0.07;
+  const auto cut = [&](double face, double fillet) {
+    return 16 * (material_measure(full) -
+                 material_measure(with_hole(full, Groove{inner, outer, face, depth, fillet, deepest})));
+  };
+  // Trapezoid: area times the path of its centroid.
+  const double mean = 0.5 * (depth + deepest), area = mean * width,
+               centroid = inner + width * (depth + 2 * deepest) / (3 * (depth + deepest)),
+               expected = 2 * pi * centroid * area;
+  for (const double face : {0., lattice.grid().width}) EXPECT_NEAR(cut(face, 0) / expected, 1, 6e-3);
+  const double fillet = 0.015, lean = std::atan((deepest - depth) / width);
+  const auto corner = [&](double angle) {
+    return fillet * fillet * (1 / std::tan(0.5 * angle) - 0.5 * (pi - angle));
+  };
+  const double rounded = expected - 2 * pi *
+                                        (corner(0.5 * pi + lean) * (inner + 0.25 * fillet) +
+                                         corner(0.5 * pi - lean) * (outer - 0.25 * fillet));
+  for (const double face : {0., lattice.grid().width}) EXPECT_NEAR(cut(face, fillet) / rounded, 1, 2e-3);
+}
+
+// Against the nearest of many points of the boundary: two sides, and the floor between them.
+TEST(Groove, WithALeaningFloorHasTheDistancesOfItsSides) {
+  const Groove groove{0.23, 0.31, 0, 0.03, 0, 0.07};
+  std::vector<Vec<2>> boundary;
+  constexpr int n = 4000;
+  for (int i = 0; i <= n; ++i) {
+    const double t = double(i) / n;
+    boundary.push_back({0.23, 0.03 * t});
+    boundary.push_back({0.31, 0.07 * t});
+    boundary.push_back({0.23 + 0.08 * t, 0.03 + 0.04 * t});
+  }
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> radius(0.2, 0.34), height(0, 0.12);
+  for (int k = 0; k < 200; ++k) {
+    const Vec<2> x{radius(random), height(random)};
+    double nearest = HUGE_VAL;
+    for (const Vec<2>& y : boundary) nearest = std::min(nearest, norm(x - y));
+    const bool is_inside = x[0] > 0.23 && x[0] < 0.31 && x[1] < 0.03 + 0.5 * (x[0] - 0.23);
+    EXPECT_NEAR(signed_distance(grid_of(16, 12), groove, Vec<3>{x[0], 0.1, x[1]}),
+                is_inside ? nearest : -nearest, 1e-5);
+  }
+}
+
 TEST(Invariance, TheMeanIsAProjection) {
   const Lattice<3> lattice(grid_of(12, 8), 2);
   std::mt19937 random(3);

@@ -93,7 +93,9 @@ Expected<std::vector<RankedQuantity>, std::string> PlanOptions::chosen_quantitie
   const RankedQuantity* minimized = ranked_as_minimized(c, known);
   chosen.push_back(minimized ? *minimized : *of_word("stiffness"));
   const std::string_view evenness = c.load.travel ? "force_variation" : "run_out";
-  if (chosen.front().word != evenness) chosen.push_back(*of_word(evenness));
+  // A body of revolution rolls evenly.
+  const bool is_even = c.optimizer.made == Manufacture::turned;
+  if (chosen.front().word != evenness && !is_even) chosen.push_back(*of_word(evenness));
   return chosen;
 }
 

@@ -202,7 +202,8 @@ struct HoleGroove {
   double inner_radius = 0;
   double outer_radius = 0;
   double depth = 0;
-  std::optional<double> fillet = {};  ///< radius of its inner corners; absent: half of what has room
+  std::optional<double> outer_depth = {};  ///< at its outer side, if its floor leans
+  std::optional<double> fillet = {};       ///< radius of its inner corners; absent: half of what has room
   GrooveSide side = GrooveSide::both;
   bool operator==(const HoleGroove&) const = default;
 };
@@ -476,7 +477,7 @@ struct Optimizer {
       minimum_radius;  ///< of internal corners [m]; absent: of 0.75 cells in the last part of a run
   NucleationTime nucleation = NucleationTime::never;
   Manufacture made = Manufacture::free;
-  std::optional<double> parting_plane;       ///< z of moulded wheels [m]; absent: in the middle of the width
+  std::optional<double> parting_plane;  ///< z of moulded wheels [m]; absent: in the middle of the width
   double draft = 0;                          ///< of moulded wheels [rad]
   std::optional<double> overhang;            ///< the largest of printed wheels [rad]; absent: 45 degrees
   SideFace stands_on = SideFace::smaller_z;  ///< while a printed wheel is printed

@@ -155,7 +155,7 @@ double smallest_hole_in_cells(const Case& c) {
   double smallest = smallest_hole_width(c);
   for (const HoleSphere& sphere : c.holes.spheres) smallest = std::min(smallest, 2 * sphere.radius);
   for (const HoleGroove& groove : c.holes.grooves)
-    smallest = std::min({smallest, 2 * groove.depth, groove.outer_radius - groove.inner_radius});
+    smallest = std::min({smallest, 2 * largest_depth(groove), groove.outer_radius - groove.inner_radius});
   const auto add = [&](Fill as, double diameter) {
     if (as == Fill::hole) smallest = std::min(smallest, diameter);
   };
@@ -367,8 +367,15 @@ std::vector<Sphere> sector_spheres(const Case& c) {
   return holes;
 }
 
+double largest_depth(const HoleGroove& groove) {
+  return std::max(groove.depth, groove.outer_depth.value_or(groove.depth));
+}
+
 double largest_fillet(const HoleGroove& groove) {
-  return std::min(groove.depth, 0.5 * (groove.outer_radius - groove.inner_radius));
+  const double width = groove.outer_radius - groove.inner_radius;
+  if (!groove.outer_depth) return std::min(groove.depth, 0.5 * width);
+  const double slope = (*groove.outer_depth - groove.depth) / width, steep = std::hypot(1, slope);
+  return std::min({groove.depth / (steep - slope), *groove.outer_depth / (steep + slope), 0.5 * width});
 }
 
 std::vector<Groove> grooves(const Case& c) {
@@ -378,7 +385,7 @@ std::vector<Groove> grooves(const Case& c) {
          {std::pair(GrooveSide::smaller_z, 0.0), std::pair(GrooveSide::larger_z, c.wheel.width)})
       if (groove.side == GrooveSide::both || groove.side == side)
         result.push_back({groove.inner_radius, groove.outer_radius, face, groove.depth,
-                          groove.fillet.value_or(0.5 * largest_fillet(groove))});
+                          groove.fillet.value_or(0.5 * largest_fillet(groove)), groove.outer_depth});
   return result;
 }
 

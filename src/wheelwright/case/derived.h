@@ -167,6 +167,8 @@ std::vector<Circle> sector_holes(const Case& c);
 std::vector<Sphere> sector_spheres(const Case& c);
 /// The grooves of all side faces.
 std::vector<Groove> grooves(const Case& c);
+/// At its inner or its outer side [m].
+double largest_depth(const HoleGroove& groove);
 /// The radius of the largest fillet that a groove has room for [m].
 double largest_fillet(const HoleGroove& groove);
 /// Sectors of at least three cells around the wheel, with which a body of revolution is solved fastest.

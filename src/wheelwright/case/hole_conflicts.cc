@@ -159,10 +159,13 @@ void check_grooves(const Case& c, Conflicts& found) {
                        fmt::format("use radii from {:.6g} m to {:.6g} m", low, high) +
                            if_in_millimetres(groove.outer_radius, high)});
     const double most = groove.side == GrooveSide::both ? 0.5 * c.wheel.width : c.wheel.width;
-    if (groove.depth >= most)
-      found.push_back({{depth, key_of(&Wheel::width)},
+    const bool leans_inwards = groove.outer_depth && *groove.outer_depth < groove.depth;
+    const CaseKey deepest =
+        groove.outer_depth && !leans_inwards ? key_of(&HoleGroove::outer_depth, i) : depth;
+    if (const double reach = largest_depth(groove); reach >= most)
+      found.push_back({{deepest, key_of(&Wheel::width)},
                        "the groove would cut the wheel into rings",
-                       fmt::format("use less than {:.6g} m", most) + if_in_millimetres(groove.depth, most)});
+                       fmt::format("use less than {:.6g} m", most) + if_in_millimetres(reach, most)});
     if (const double fillet = largest_fillet(groove); groove.fillet.value_or(0) > fillet)
       found.push_back({{key_of(&HoleGroove::fillet, i), depth, inner, outer},
                        "the corners have no room",

@@ -99,11 +99,18 @@ const SectionArray<HoleGroove>& groove_sections() {
           length_key(&HoleGroove::inner_radius, "inner_radius", "radius of its inner side"),
           length_key(&HoleGroove::outer_radius, "outer_radius", "radius of its outer side"),
           length_key(&HoleGroove::depth, "depth", "how far it reaches into the wheel along the axle"),
+          {.name = "outer_depth",
+           .unit = "m",
+           .field = OptionalNumberField<HoleGroove>{&HoleGroove::outer_depth, between(0, 1000), "depth"},
+           .meaning = "the depth at its outer side, if the floor leans: from the depth at the inner side it "
+                      "changes linearly"},
           {.name = "fillet",
            .unit = "m",
            .field = OptionalNumberField<HoleGroove>{&HoleGroove::fillet, between(0, 1000),
                                                     "half of the largest one that fits"},
-           .meaning = "radius of its corners, at most the depth and half of the width of the groove"},
+           .meaning =
+               "radius of its corners, for which the groove must have room: at most half of its width and, "
+               "unless the floor leans, the depth"},
           {.name = "side",
            .field = choice<&HoleGroove::side>({"both", "smaller_z", "larger_z"}),
            .meaning =

@@ -94,17 +94,12 @@ Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationSett
     return Failure{FailureReason::empty_shape,
                    fmt::format("the volume of the designs is undefined; give the case holes{}",
                                holds_volume(c) ? " or volume.target" : "")};
-  if (c.optimizer.made == Manufacture::turned)
-    return Failure{
-        FailureReason::unsupported_model,
-        "starts have holes and spokes, which a turned wheel cannot have; sweep the radii or depths "
-        "of its grooves instead"};
   std::vector<Start> starts;
   if (has_holes(c)) starts.push_back({"the case's own shape", c});
   FailedAttempts failed;
+  const int n_kinds = static_cast<int>(kinds_of_starts(c).size());
   int without_start = 0;
-  for (int number = 0; static_cast<int>(starts.size()) < wanted.starts && without_start < n_kinds_of_starts;
-       ++number) {
+  for (int number = 0; static_cast<int>(starts.size()) < wanted.starts && without_start < n_kinds; ++number) {
     if (settings.must_end()) break;
     DrawnStart drawing =
         draw_start(c, {*volume, wanted.keeps_sectors}, wanted.seed, number, settings.must_end);

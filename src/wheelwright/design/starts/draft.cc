@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -96,6 +97,71 @@ std::optional<Draft> draft_rings(const DraftSpace& space, Random& random, int n_
                .draw = [rings](Case& c, double size) {
                  for (const RingDraft& ring : rings)
                    c.holes.rings.push_back({ring.count, ring.center_radius, ring.share * size, ring.phase});
+               }};
+}
+
+namespace {
+
+/// How the radius of tapered holes changes along the axle, as a share of the largest.
+struct Taper {
+  std::vector<std::array<double, 2>> profile;  ///< [z from the middle of the width, share]
+  const char* holes;
+};
+
+Taper draw_taper(const AxialSpace& across, Random& random, double narrow) {
+  const double half = 0.5 * across.width, mean = 0.5 * (1 + narrow);
+  const Taper towards_larger{{{-half, 1}, {0, mean}, {half, narrow}}, "holes that narrow towards larger z"},
+      towards_smaller{{{-half, narrow}, {0, mean}, {half, 1}}, "holes that narrow towards smaller z"};
+  const int form = random.below(4);
+  if (across.kept) {
+    const double z = *across.kept - half, rounding = 1e-9 * half;
+    if (z >= half - rounding) return towards_larger;
+    if (z <= rounding - half) return towards_smaller;
+    return {{{-half, 1}, {z, narrow}, {half, 1}}, "holes with a waist"};
+  }
+  switch (form) {
+    case 0:
+      return towards_larger;
+    case 1:
+      return towards_smaller;
+    case 2:
+      return {{{-half, 1}, {0, narrow}, {half, 1}}, "holes with a waist"};
+    default:
+      return {{{-half, narrow}, {0, 1}, {half, narrow}}, "holes that are widest in the middle"};
+  }
+}
+
+}  // namespace
+
+std::optional<Draft> draft_tapered_holes(const DraftSpace& space, const AxialSpace& across, Random& random) {
+  const int n_rings = 1 + random.below(2);
+  const double thickness = (space.outer - space.inner) / n_rings, narrow = random.uniform(0.6, 0.85);
+  // As many as have about the same room around the wheel as between rim and tread.
+  const double filling = pi * (space.outer + space.inner) / (thickness + space.wall);
+  const int count = draw_count(space, random, std::max(fewest, static_cast<int>(0.8 * filling)),
+                               std::max(fewest + 1, static_cast<int>(1.2 * filling)));
+  std::vector<RingDraft> rings;
+  for (int k = 0; k < n_rings; ++k)
+    rings.push_back(
+        {.count = count,
+         .center_radius = space.inner + (k + 0.5) * thickness + random.uniform(-0.05, 0.05) * thickness,
+         .phase = k % 2 == 1 ? 0 : pi / count,
+         .share = 1});
+  const Taper taper = draw_taper(across, random, narrow);
+  const double largest = largest_size(space, rings), minimum = 0.5 * space.wall / narrow;
+  if (largest <= minimum) return {};
+  return Draft{.text = n_rings == 1 ? fmt::format("{} {}", count, taper.holes)
+                                    : fmt::format("2 rings of {} {}", count, taper.holes),
+               .sectors = count,
+               .minimum = minimum,
+               .most = largest,
+               .draw = [rings, taper](Case& c, double size) {
+                 for (const RingDraft& ring : rings) {
+                   HoleTapered holes{
+                       .count = ring.count, .center_radius = ring.center_radius, .phase = ring.phase};
+                   for (const auto& [z, share] : taper.profile) holes.profile.push_back({z, share * size});
+                   c.holes.tapered.push_back(std::move(holes));
+                 }
                }};
 }
 

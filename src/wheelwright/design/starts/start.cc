@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/design/starts/draft.h"
+#include "wheelwright/design/starts/solid_draft.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
 
@@ -25,38 +27,90 @@ constexpr int max_attempts = 200;
 constexpr int max_refused = 10;
 constexpr double volume_tolerance = 1e-3;
 
-/// The kinds take turns, so that even a few starts include several; rings are the most frequent.
-std::optional<Draft> draft(const DraftSpace& space, Random& random, int number) {
-  switch (number % n_kinds_of_starts) {
-    case 0:
-    case 5:
-      return draft_rings(space, random, 2, true);
-    case 1:
-      return draft_rings(space, random, 1, false);
-    case 2:
-      return draft_rings(space, random, 2, false);
-    case 3:
-      return draft_spokes(space, random, random.coin() ? SpokeKind::straight : SpokeKind::curved);
-    case 4:
-      return draft_slots(space, random);
-    case 6:
-      return draft_rings(space, random, 3, true);
-    case 7:
-      return draft_spokes(space, random, random.coin() ? SpokeKind::forked : SpokeKind::pair);
-    case 8:
-      return draft_ellipses(space, random);
-    default:
-      return draft_rings(space, random, 3, false);
+/// Rings are the most frequent.
+constexpr std::array plane_kinds{StartKind::two_staggered_rings,
+                                 StartKind::one_ring,
+                                 StartKind::two_rings,
+                                 StartKind::plain_spokes,
+                                 StartKind::slots,
+                                 StartKind::two_staggered_rings,
+                                 StartKind::three_staggered_rings,
+                                 StartKind::split_spokes,
+                                 StartKind::ellipses,
+                                 StartKind::three_rings};
+
+/// Those of the plane, with one of the others after every second one.
+std::vector<StartKind> mixed_with_plane_kinds(const std::vector<StartKind>& others) {
+  std::vector<StartKind> result;
+  for (std::size_t i = 0; i < plane_kinds.size(); ++i) {
+    result.push_back(plane_kinds[i]);
+    if (i % 2 == 1) result.push_back(others[i / 2 % others.size()]);
   }
+  return result;
 }
+
+std::optional<Draft> draft(const DraftSpace& space, const AxialSpace& across, Random& random,
+                           StartKind kind) {
+  switch (kind) {
+    case StartKind::one_ring:
+      return draft_rings(space, random, 1, false);
+    case StartKind::two_rings:
+      return draft_rings(space, random, 2, false);
+    case StartKind::two_staggered_rings:
+      return draft_rings(space, random, 2, true);
+    case StartKind::three_rings:
+      return draft_rings(space, random, 3, false);
+    case StartKind::three_staggered_rings:
+      return draft_rings(space, random, 3, true);
+    case StartKind::plain_spokes:
+      return draft_spokes(space, random, random.coin() ? SpokeKind::straight : SpokeKind::curved);
+    case StartKind::split_spokes:
+      return draft_spokes(space, random, random.coin() ? SpokeKind::forked : SpokeKind::pair);
+    case StartKind::slots:
+      return draft_slots(space, random);
+    case StartKind::ellipses:
+      return draft_ellipses(space, random);
+    case StartKind::tapered_holes:
+      return draft_tapered_holes(space, across, random);
+    case StartKind::middle_disc:
+      return draft_disc(space, across, random, DiscKind::middle);
+    case StartKind::offset_disc:
+      return draft_disc(space, across, random, DiscKind::offset);
+    case StartKind::leaning_disc:
+      return draft_disc(space, across, random, DiscKind::leaning);
+    case StartKind::tapering_disc:
+      return draft_disc(space, across, random, DiscKind::tapering);
+    case StartKind::disc_folded_once:
+      return draft_folded_disc(space, across, random, 2);
+    case StartKind::disc_folded_twice:
+      return draft_folded_disc(space, across, random, 3);
+  }
+  return {};
+}
+
+constexpr double thinnest = 1.5;  // walls and gaps [cells]
 
 DraftSpace draft_space(const Case& c, const StartRange& range) {
   const auto [inner, outer] = free_region(c);
-  constexpr double thinnest = 1.5;  // cells
   const double wall =
       std::max({thinnest * polar_grid<2>(c).resolution(), c.optimizer.minimum_wall.value_or(0),
                 c.optimizer.minimum_gap.value_or(0), 2 * c.optimizer.minimum_radius.value_or(0)});
   return {inner, outer, wall, range.keeps_sectors ? c.wheel.sectors : 1};
+}
+
+/// The plane in which the holes of a moulded or printed wheel are smallest.
+std::optional<double> kept_plane(const Case& c) {
+  if (const auto halves = mould(c)) return halves->parting_plane;
+  const auto layers = print(c);
+  if (!layers) return {};
+  return layers->plate == SideFace::smaller_z ? 0 : c.wheel.width;
+}
+
+/// Unused in 2D.
+AxialSpace axial_space(const Case& c) {
+  const double cell = c.wheel.width / c.grid.axial_cells;
+  return {c.wheel.width, std::max(thinnest * cell, c.optimizer.minimum_wall.value_or(0)), c.wheel.sectors,
+          kept_plane(c)};
 }
 
 /// About as many cells as the case has, a multiple of the sectors that can be halved as often as its coarse
@@ -115,6 +169,14 @@ std::string refusal(const Case& c) {
   return fmt::format("{}: {}", first.key, first.problem);
 }
 
+/// Whether making the shape fit a mould or a print fills, joins or divides holes.
+bool is_changed_by_fitting(const Case& c) {
+  if (!mould(c) && !print(c)) return false;
+  Case free = c;
+  free.optimizer.made = Manufacture::free;
+  return !topology_changes(components(initial_shape<3>(free)), components(initial_shape<3>(c))).empty();
+}
+
 /// One attempt at a start.
 DrawnStart attempt(const Case& c, const StartRange& range, const std::optional<Draft>& draft) {
   if (!draft) return {{}, {.without_room = 1}};
@@ -123,13 +185,33 @@ DrawnStart attempt(const Case& c, const StartRange& range, const std::optional<D
   Case result = drawn(c, range, *draft, *size);
   if (std::string problem = refusal(result); !problem.empty())
     return {{}, {.refused = 1, .refusal = std::move(problem)}};
-  if (in_dimension_of(c, [&](auto dim) { return !lost_on_the_grid<dim>(result).empty(); }))
+  if (in_dimension_of(c, [&](auto dim) { return !lost_on_the_grid<dim>(result).empty(); }) ||
+      is_changed_by_fitting(result))
     return {{}, {.unresolved = 1}};
   result.title = draft->text;
   return {Start{draft->text, std::move(result)}, {}};
 }
 
 }  // namespace
+
+std::vector<StartKind> kinds_of_starts(const Case& c) {
+  using enum StartKind;
+  const std::vector of_the_plane(plane_kinds.begin(), plane_kinds.end());
+  if (c.wheel.dimension != 3) return of_the_plane;
+  switch (c.optimizer.made) {
+    case Manufacture::extruded:
+      return of_the_plane;
+    case Manufacture::turned:
+      return {middle_disc, leaning_disc, offset_disc, disc_folded_once, tapering_disc, disc_folded_twice};
+    case Manufacture::moulded:
+      return mixed_with_plane_kinds({middle_disc, tapered_holes, offset_disc, leaning_disc, tapering_disc});
+    case Manufacture::printed:
+      return mixed_with_plane_kinds({middle_disc, tapered_holes, tapering_disc});
+    case Manufacture::free:
+      break;
+  }
+  return mixed_with_plane_kinds({middle_disc, tapered_holes, leaning_disc, disc_folded_once, offset_disc});
+}
 
 double initial_volume(const Case& c) {
   return in_dimension_of(c, [&](auto dim) {
@@ -164,10 +246,13 @@ DrawnStart draw_start(const Case& c, const StartRange& range, std::uint64_t seed
                       const std::function<bool()>& must_end) {
   Random random(seed, static_cast<std::uint64_t>(number));
   const DraftSpace space = draft_space(c, range);
+  const AxialSpace across = axial_space(c);
+  const std::vector<StartKind> kinds = kinds_of_starts(c);
   FailedAttempts failed;
   while (failed.total() < max_attempts && failed.refused < max_refused && !must_end()) {
     // If a kind finds no room, the next one is tried.
-    DrawnStart drawing = attempt(c, range, draft(space, random, number + failed.total() / 20));
+    const StartKind kind = kinds[(number + failed.total() / 20) % kinds.size()];
+    DrawnStart drawing = attempt(c, range, draft(space, across, random, kind));
     failed += drawing.failed;
     if (drawing.start) return {std::move(drawing.start), std::move(failed)};
   }

@@ -4,13 +4,15 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {
 
-// Initial shapes for optimizations of the same wheel: rings of holes, slots, ellipses and spokes with random
-// numbers and places, all of the same volume. In 3D they are those of the plane, repeated along the axle.
+// Initial shapes for optimizations of the same wheel, with random numbers and places, all of the same volume:
+// rings of holes, slots, ellipses and spokes; in 3D also discs and holes that change along the axle, as far
+// as the wheel can be made so.
 
 /// Common properties of the starts of an exploration.
 struct StartRange {
@@ -45,8 +47,27 @@ struct DrawnStart {
   FailedAttempts failed;
 };
 
-/// Number of kinds of starts, e.g. slots; consecutive starts take turns.
-inline constexpr int n_kinds_of_starts = 10;
+enum class StartKind {
+  one_ring,
+  two_rings,
+  two_staggered_rings,
+  three_rings,
+  three_staggered_rings,
+  plain_spokes,  ///< straight or curved
+  split_spokes,  ///< forked or in pairs
+  slots,
+  ellipses,
+  tapered_holes,
+  middle_disc,
+  offset_disc,
+  leaning_disc,
+  tapering_disc,
+  disc_folded_once,
+  disc_folded_twice,
+};
+
+/// The kinds in which a case's wheel can be made; consecutive starts take turns.
+std::vector<StartKind> kinds_of_starts(const Case& c);
 
 /// The start with a number, independent of all others. Its shape is valid on its grid: no wall and no hole is
 /// lost there, and its volume is that of the range to within a hundredth of the ring. There is none if a

@@ -52,7 +52,29 @@ double signed_distance(const PolarGrid<3>& grid, const TaperedHole& hole, const 
   return x[1] < radius_at(hole.profile, x[0]) ? distance : -distance;
 }
 
+namespace {
+
+/// Of a groove whose floor leans: a trapezoid in the section, smaller by the fillet all around, and then
+/// larger by it again, which rounds its corners.
+double leaning_distance(const Groove& hole, double outer_depth, const Vec<2>& x) {
+  const double slope = (outer_depth - hole.depth) / (hole.outer_radius - hole.inner_radius),
+               steep = std::hypot(1, slope);
+  const auto floor = [&](double radius) {
+    return hole.depth + slope * (radius - hole.inner_radius) - hole.fillet * steep;
+  };
+  const double inner = hole.inner_radius + hole.fillet, outer = hole.outer_radius - hole.fillet;
+  const double beyond = std::max({inner - x[0], x[0] - outer, (x[1] - floor(x[0])) / steep});
+  if (beyond <= 0) return hole.fillet - beyond;
+  const Vec<2> a{inner, floor(inner)}, b{outer, floor(outer)};
+  return hole.fillet - std::min({distance_to_segment(x, {inner, 0}, a), distance_to_segment(x, a, b),
+                                 distance_to_segment(x, b, {outer, 0})});
+}
+
+}  // namespace
+
 double signed_distance(const PolarGrid<3>&, const Groove& hole, const Vec<3>& polar) {
+  if (hole.outer_depth)
+    return leaning_distance(hole, *hole.outer_depth, {polar[0], std::abs(polar[2] - hole.face)});
   const double half_width = 0.5 * (hole.outer_radius - hole.inner_radius);
   const double across = std::abs(polar[0] - hole.inner_radius - half_width) - (half_width - hole.fillet),
                along = std::abs(polar[2] - hole.face) - (hole.depth - hole.fillet);

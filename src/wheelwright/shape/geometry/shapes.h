@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "wheelwright/shape/geometry/level_set.h"
@@ -27,11 +28,13 @@ struct TaperedHole {
   std::vector<Vec<2>> profile;           ///< [m]
 };
 
-/// A groove around the axle in a side face, a rectangle in the section through the axle with rounded corners.
+/// A groove around the axle in a side face, a rectangle in the section through the axle with rounded corners,
+/// or with a floor that leans.
 struct Groove {
-  double inner_radius, outer_radius;  ///< of its sides [m]
-  double face;                        ///< height of the side face [m]
-  double depth, fillet;               ///< [m]
+  double inner_radius, outer_radius;    ///< of its sides [m]
+  double face;                          ///< height of the side face [m]
+  double depth, fillet;                 ///< [m]
+  std::optional<double> outer_depth{};  ///< the depth at its outer side, if its floor leans [m]
 };
 
 /// Signed distance [m] to the boundary of a hole and its images in all sectors; positive inside.
