@@ -84,10 +84,10 @@ TEST(CaseKey, EveryMemberOfAnOptimizationHasAKey) {
   const Optimizer o;
   const auto& [method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
                redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation, made, parting_plane,
-               draft, overhang, stands_on] = o;
+               parting, draft, overhang, stands_on] = o;
   expect_keys(o, method, iterations, coarse, velocity, velocity_length, step, halvings, increase, tolerance,
               redistance, smoothing, smooth, rim, tread, wall, gap, radius, nucleation, made, parting_plane,
-              draft, overhang, stands_on);
+              parting, draft, overhang, stands_on);
   const Output f;
   const auto& [folder, vtu, pictures, checkpoints, seconds, errors] = f;
   expect_keys(f, folder, vtu, pictures, checkpoints, seconds, errors);

@@ -1,6 +1,7 @@
 #include "wheelwright/app/execute.h"
 
 #include "wheelwright/app/run_messages.h"
+#include "wheelwright/app/terminal.h"
 #include "wheelwright/app/terminal_observer.h"
 #include "wheelwright/run/observers/event_lines.h"
 
@@ -28,13 +29,20 @@ int execute(Run<dim>& run, Signals& signals, const Reporting& reporting) {
 /// of JSON only.
 std::FILE* stream_of_results(const Reporting& reporting) { return reporting.events ? stderr : stdout; }
 
+/// On standard error, like the progress that follows.
+PlaneSearch plane_search(const Signals& signals) {
+  return {.interrupt = Interrupt([&signals] { return signals.stop().has_value(); }),
+          .report = [](const std::string& line) { print_err("{}\n", line); }};
+}
+
 }  // namespace
 
 int begin_run(const Case& c, const std::filesystem::path& folder, Signals& signals,
               const Reporting& reporting) {
   if (signals.stop()) return report_not_begun_by_signal();
   return in_dimension_of(c, [&](auto dim) {
-    auto run = Run<dim>::begin(c, folder);
+    auto run = Run<dim>::begin(c, folder, plane_search(signals));
+    if (!run && signals.stop()) return report_not_begun_by_signal();
     if (!run) return report_not_begun<dim>(run.failure(), folder, stream_of_results(reporting));
     return execute(*run, signals, reporting);
   });

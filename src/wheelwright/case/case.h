@@ -456,6 +456,12 @@ enum class NucleationTime { never, converged };
 /// How the wheel is made, which every shape of a run allows; in 3D.
 enum class Manufacture { free, extruded, turned, moulded, printed };
 
+/// Where the parting plane of a moulded wheel comes from.
+enum class Parting {
+  given,  ///< from the case, or its default
+  found,  ///< from the first wheels of all planes, before the run begins
+};
+
 struct Optimizer {
   OptimizerMethod method = OptimizerMethod::automatic;
   int iterations = 100;
@@ -478,6 +484,7 @@ struct Optimizer {
   NucleationTime nucleation = NucleationTime::never;
   Manufacture made = Manufacture::free;
   std::optional<double> parting_plane;  ///< z of moulded wheels [m]; absent: in the middle of the width
+  Parting parting = Parting::given;
   double draft = 0;                          ///< of moulded wheels [rad]
   std::optional<double> overhang;            ///< the largest of printed wheels [rad]; absent: 45 degrees
   SideFace stands_on = SideFace::smaller_z;  ///< while a printed wheel is printed

@@ -251,6 +251,12 @@ std::vector<Key<Optimizer>> manufacture_keys() {
                                                "between the cells nearest the middle of the width"},
        .meaning = "with made = \"moulded\", z of the plane in which the halves of the mould meet, between "
                   "cells; 0 or wheel.width: one half is flat"},
+      {.name = "parting",
+       .field = choice<&Optimizer::parting>({"given", "found"}),
+       .meaning =
+           "with made = \"moulded\", found: before the first shape, a run solves the initial wheel for "
+           "every plane between cells, at the same volume, and takes the one with the least objective as "
+           "parting_plane"},
       {.name = "draft",
        .unit = "deg",
        .field = NumberField<Optimizer>{&Optimizer::draft, between(0, 30), degree_of_arc},

@@ -101,6 +101,18 @@ void check_print(const Case& c, Conflicts& found) {
 void check_mould(const Case& c, Conflicts& found) {
   const Optimizer& o = c.optimizer;
   if (o.parting_plane) refuse_unless_made(Manufacture::moulded, key_of(&Optimizer::parting_plane), c, found);
+  if (o.parting != Parting::given)
+    refuse_unless_made(Manufacture::moulded, key_of(&Optimizer::parting), c, found);
+  if (o.parting == Parting::found && o.parting_plane)
+    found.push_back({{key_of(&Optimizer::parting), key_of(&Optimizer::parting_plane)},
+                     "the parting plane is given and to be found",
+                     "omit one of the two"});
+  const Quantity& minimized = c.objective.minimize;
+  const bool is_of_volume = minimized == built_in("mass") || minimized == built_in("volume_fraction");
+  if (o.parting == Parting::found && is_of_volume)
+    found.push_back({{key_of(&Optimizer::parting), key_of(&Objective::minimize)},
+                     "the planes are compared at the same volume, where all wheels weigh the same",
+                     "give parting_plane, or minimize another quantity"});
   if (o.draft != 0) refuse_unless_made(Manufacture::moulded, key_of(&Optimizer::draft), c, found);
   if (c.wheel.dimension != 3 || o.made != Manufacture::moulded || !o.parting_plane) return;
   const double cell = c.wheel.width / c.grid.axial_cells, plane = *o.parting_plane;

@@ -14,6 +14,7 @@
 #include "wheelwright/files/file_content.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/output/report/svg.h"
+#include "wheelwright/run/study/parting_planes.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/geometry/section.h"
 
@@ -117,8 +118,11 @@ Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationSett
 
 }  // namespace
 
-Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationSettings& wanted,
+Expected<std::vector<Design>> planned_designs(const Case& given, const ExplorationSettings& wanted,
                                               const DrawingSettings& settings) {
+  const auto complete = with_parting_plane_found(given, {.interrupt = Interrupt(settings.must_end)});
+  if (!complete) return complete.failure();
+  const Case& c = *complete;
   auto starts = planned_starts(c, wanted, settings);
   if (!starts) return starts.failure();
   double weight = 0;

@@ -9,6 +9,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/run/study/parting_planes.h"
 
 namespace wheelwright {
 namespace {
@@ -91,7 +92,10 @@ Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const G
     source = with_fitting_shares(std::move(source), keys);
     auto valid = checked(with_default_grid(source, with_swept(given_cells, keys)), file, design.text);
     if (!valid) return valid.failure();
-    design.source = *std::move(valid);
+    auto complete = with_parting_plane_found(*valid);
+    if (!complete)
+      return SweepProblem{fmt::format("{}: no parting plane: {}", design.text, complete.failure().detail)};
+    design.source = *std::move(complete);
     design.source.title = design.text;
     design.source.output.vtu_every = design.source.output.pictures_every = 0;
     design.source.output.errors = ErrorEstimates::none;  // of the finalists they are estimated afterwards

@@ -92,7 +92,8 @@ Run<dim>::Run(FolderLock lock, fs::path folder, Study<dim> study, Resumption res
       observers_(make_observers<dim>(study_.source, checkpoints, checkpoint_)) {}
 
 template <int dim>
-Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path& folder) {
+Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path& folder,
+                                                  const PlaneSearch& search) {
   auto foreign = foreign_files(folder);
   if (StopFile(folder).exists()) foreign.emplace_back(stop_file);  // it would stop the run and be removed
   if (is_there(folder / "analysis.json"))
@@ -102,13 +103,18 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path&
   if (!lock) return NotBegun<dim>(lock.failure());
   const CheckpointFolder checkpoints(folder);
   if (is_there(folder / history_file) || checkpoints.exists()) return NotBegun<dim>(FolderHoldsARun{});
-  auto study = make_study<dim>(with_own_drawings(c));
+  const auto complete = with_parting_plane_found(with_own_drawings(c), search);
+  if (!complete) return NotBegun<dim>(complete.failure());
+  auto study = make_study<dim>(*complete);
   if (!study) return NotBegun<dim>(study.failure());
   return Run(*std::move(lock), folder, *std::move(study), {}, checkpoints, {});
 }
 
 template <int dim>
-Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path& folder) {
+Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& given, const fs::path& folder) {
+  const auto complete = with_parting_plane_found(given);
+  if (!complete) return NotBegun<dim>(complete.failure());
+  const Case& c = *complete;
   restore_list<dim>(c, folder);
   if (auto foreign = foreign_files(folder); !foreign.empty())
     return NotBegun<dim>(ForeignFiles{std::move(foreign)});

@@ -12,6 +12,7 @@
 #include "wheelwright/run/commands/command_queue.h"
 #include "wheelwright/run/observers/expectations.h"
 #include "wheelwright/run/observers/observer.h"
+#include "wheelwright/run/study/parting_planes.h"
 
 namespace wheelwright {
 
@@ -71,7 +72,12 @@ class Run {
  public:
   /// Refuses a folder that contains a run, or files of the user that the run would replace, and leaves such a
   /// folder unchanged. Throws OutputError.
-  static Expected<Run, NotBegun<dim>> begin(const Case& c, const std::filesystem::path& folder);
+  static Expected<Run, NotBegun<dim>> begin(const Case& c, const std::filesystem::path& folder) {
+    return begin(c, folder, PlaneSearch());
+  }
+  /// The same, for a case that looks for its parting plane: the run's case has the one that it finds.
+  static Expected<Run, NotBegun<dim>> begin(const Case& c, const std::filesystem::path& folder,
+                                            const PlaneSearch& search);
 
   /// The run in this folder with this case; starts from the beginning if it was killed before its first
   /// checkpoint. Throws OutputError.

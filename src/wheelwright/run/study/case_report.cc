@@ -19,6 +19,7 @@
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/single_load.h"
 #include "wheelwright/mechanics/rolling/contact_failure.h"
+#include "wheelwright/run/study/parting_planes.h"
 #include "wheelwright/run/study/problem_size.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
@@ -140,6 +141,15 @@ std::string losses_report(const Case& c) {
          frequencies;
 }
 
+/// What a run does before its first shape.
+std::string parting_report(const Case& c) {
+  if (!finds_parting_plane(c)) return "";
+  const int n = c.grid.axial_cells + 1;
+  return line("parting plane",
+              fmt::format("found by a run among {} planes, in about {:.2g} s; until then at the default", n,
+                          n * estimated_seconds_in_3d(problem_size(c))));
+}
+
 std::string time_report(const Case& c) {
   return line("time", fmt::format("about {:.2g} s for one shape on one core",
                                   estimated_seconds_in_3d(problem_size(c)))) +
@@ -182,7 +192,7 @@ std::string size_report(const Case& c) {
                                       dof_bound(c) / c.wheel.sectors)) +
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(problem_size(c)) / 1e6))) +
          (has_large_strains(c)     ? time_at_large_deformation(c)
-          : c.wheel.dimension == 3 ? time_report(c)
+          : c.wheel.dimension == 3 ? time_report(c) + parting_report(c)
                                    : "");
 }
 
