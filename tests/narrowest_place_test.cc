@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "wheelwright/shape/evolution/feature_size.h"
+#include "wheelwright/shape/evolution/widths.h"
 #include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
@@ -57,6 +59,27 @@ TEST(NarrowestPlace, OfGroovesIsTheDiscBetweenThem) {
   ASSERT_TRUE(wall);
   EXPECT_NEAR(wall->width, 0.12 - 0.05 - 0.057, 2e-4);
   EXPECT_EQ(closed_cavities(psi), 0);
+}
+
+/// A ball over a side face: its wall is a width with the derivative of its thickness, and is thickened.
+TEST(WallsToFaces, AreWidthsAndAreThickened) {
+  const auto psi = with_hole(ring(), Sphere{0.27, 0.4 * sector(), 0.026, 0.020});
+  const auto widths = narrow_widths(psi, {.wall = 0.008}, 0);
+  ASSERT_FALSE(widths.empty());  // the most critical one first
+  EXPECT_NEAR(widths[0].value, 0.006, 1e-4);
+  EXPECT_NEAR(widths[0].place[2], 0.003, 1e-4);
+  double by_all = 0;  // a level set that falls everywhere by the same moves the boundary outwards by that
+  for (const auto& [node, weight] : widths[0].slopes) by_all += weight;
+  EXPECT_NEAR(std::abs(by_all), 1, 0.01);
+  const double step = 1e-5;
+  auto moved = psi;
+  for (double& value : moved.values) value -= step;
+  const auto after = narrow_widths(moved, {.wall = 0.008}, 0);
+  ASSERT_FALSE(after.empty());
+  EXPECT_NEAR((after[0].value - widths[0].value) / step, -by_all, 0.02);
+  const auto thick = narrowest_place(with_thick_walls(psi, 0.008), Side::material);
+  ASSERT_TRUE(thick);
+  EXPECT_NEAR(thick->width, 0.008, 4e-4);
 }
 
 }  // namespace

@@ -258,6 +258,10 @@ Trial<dim> Trials<dim>::repaired(const OptimizationState<dim>& state, const Leve
       *evolver_, trial.shape,
       requirements(state.target_measure, boundary_measure(state.evaluation.boundary), widths_after(state)));
   trial.evolution_seconds = watch.seconds();
+  if (finished && has_holes(state.shape) && !has_holes(finished->shape)) {
+    trial.failure = {FailureReason::too_narrow, "the minimum widths fill all holes"};
+    return trial;
+  }
   evaluate(std::move(finished), &state.evaluation, trial);
   if (!trial.failure) trial.verdict = Verdict::objective_rose;
   return trial;

@@ -8,11 +8,6 @@
 
 namespace wheelwright {
 
-template <int dim>
-bool has_holes(const LevelSet<dim>& shape) {
-  return std::ranges::any_of(shape.values, [](double value) { return value > 0; });
-}
-
 namespace {
 
 /// Returns the widths required by a key of the case with this value.
@@ -73,8 +68,6 @@ std::optional<Failure> filled_holes(const LevelSet<dim>& initial, const Evolutio
                              asked.wall * mm, asked.gap * mm)};
 }
 
-template bool has_holes(const LevelSet<2>&);
-template bool has_holes(const LevelSet<3>&);
 template decltype(filled_holes<2>) filled_holes<2>;
 template decltype(filled_holes<3>) filled_holes<3>;
 

@@ -8,10 +8,6 @@
 
 namespace wheelwright {
 
-/// Whether a node lies in a hole.
-template <int dim>
-bool has_holes(const LevelSet<dim>& shape);
-
 /// Why a run cannot start from an initial shape: the minimum widths of walls and gaps fill all of its holes.
 /// Names the key, its value and a width that leaves holes. Nothing if holes remain, or if there were none.
 template <int dim>

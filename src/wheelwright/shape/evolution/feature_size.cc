@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "wheelwright/shape/evolution/edge_curvature.h"
+#include "wheelwright/shape/evolution/face_walls.h"
 #include "wheelwright/shape/evolution/medial_balls.h"
 #include "wheelwright/shape/evolution/redistance.h"
+#include "wheelwright/shape/evolution/seeds.h"
 #include "wheelwright/shape/geometry/ball.h"
 #include "wheelwright/shape/geometry/cell_map.h"
 #include "wheelwright/shape/geometry/components.h"
@@ -165,13 +167,32 @@ LevelSet<dim> without_small_holes(LevelSet<dim> psi, double diameter) {
 
 }  // namespace
 
+namespace {
+
+/// The centres of balls that thicken thin walls: in their middle, or at side faces the balls that touch
+/// these.
+template <int dim>
+std::vector<Vec<dim>> centres_in_thin_walls(const LevelSet<dim>& psi, double wall) {
+  const MedialBalls<dim> medial(psi);
+  const double least = wall * (1 - rounding);
+  std::vector<Vec<dim>> centres = centres_of(medial.in(Side::material, 0.5 * least));
+  for (const auto& thin : walls_to_faces<dim>(medial.interpolant(), medial.seeds(), least)) {
+    Vec<dim> centre = cartesian_position<dim>(psi.lattice, thin.foot);
+    centre[dim - 1] += (centre[dim - 1] == 0 ? 0.5 : -0.5) * wall;
+    centres.push_back(centre);
+  }
+  return centres;
+}
+
+}  // namespace
+
 template <int dim>
 LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall) {
   LevelSet<dim> result = psi;
   for (int pass = 1; pass <= max_passes; ++pass) {
-    const auto balls = thin_walls(result, 0.5 * wall * (1 - rounding));
-    if (balls.empty()) break;
-    const DistanceToPoints<dim> distance(psi.lattice, centres_of(balls));
+    const auto centres = centres_in_thin_walls(result, wall);
+    if (centres.empty()) break;
+    const DistanceToPoints<dim> distance(psi.lattice, centres);
     for (int node = 0; node < psi.lattice.n_nodes(); ++node)
       result.values[node] = std::min(result.values[node], distance(node) - 0.5 * (1 + pass * margin) * wall);
   }

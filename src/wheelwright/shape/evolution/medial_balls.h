@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "wheelwright/shape/evolution/cubic_interpolant.h"
@@ -41,6 +42,9 @@ class MedialBalls {
   /// A point that a ball touches, in units of the node spacing; in a neighbouring sector its azimuth lies
   /// outside the lattice.
   const Vec<dim>& point(int index) const { return points_[index]; }
+
+  /// The seeds of the sector itself, in the same units.
+  std::span<const Vec<dim>> seeds() const { return std::span(points_).subspan(n_seeds(), n_seeds()); }
 
   /// The unit outward normal of the material there; Cartesian, body frame.
   Vec<dim> normal(int index) const;

@@ -25,12 +25,14 @@ std::optional<NarrowestPlace<dim>> between_edges(const LevelSet<dim>& psi, Side 
     radius = std::min(2 * radius, largest);
     balls = medial.in(side, radius);
   }
+  constexpr double parallel = -0.9;  // the ends of a neck, unlike the sides of a corner
   std::optional<NarrowestPlace<dim>> narrowest;
   for (const auto& ball : balls) {
     const auto [seed, other] = ball.touched;
     const Vec<dim> p = cartesian_position<dim>(psi.lattice, medial.point(seed)),
                    across = p - cartesian_position<dim>(psi.lattice, medial.point(other)),
                    normal = outward * medial.normal(seed);
+    if (dot<dim>(medial.normal(seed), medial.normal(other)) > parallel) continue;
     const double width = dot<dim>(across, across) / dot<dim>(across, normal);
     if (width > 0 && (!narrowest || width < narrowest->width)) narrowest = {width, p - 0.5 * width * normal};
   }

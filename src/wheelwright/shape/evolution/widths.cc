@@ -6,6 +6,7 @@
 
 #include "wheelwright/shape/evolution/closest_point.h"
 #include "wheelwright/shape/evolution/edge_curvature.h"
+#include "wheelwright/shape/evolution/face_walls.h"
 #include "wheelwright/shape/evolution/medial_balls.h"
 #include "wheelwright/shape/evolution/seeds.h"
 #include "wheelwright/shape/geometry/cell_map.h"
@@ -26,8 +27,9 @@ struct NarrowPlace {
   WidthKind kind;
   Vec<dim> place;  ///< body frame [m]
   double gap;
-  MedialBall<dim> ball;   ///< of a wall, or a gap
-  EdgePoint<dim> corner;  ///< of a corner
+  MedialBall<dim> ball;                       ///< of a wall, or a gap
+  EdgePoint<dim> corner;                      ///< of a corner
+  std::optional<FaceWall<dim>> to_face = {};  ///< a wall to a side face
 };
 
 /// The sign of a width's change as its ends move along the outward normals of the material.
@@ -41,6 +43,17 @@ void add_balls(const MedialBalls<dim>& medial, WidthKind kind, double minimum, d
                std::vector<NarrowPlace<dim>>& places) {
   for (const auto& ball : medial.in(side_of(kind), 0.5 * (minimum + reach)))
     places.push_back({kind, ball.centre, 1 - 2 * ball.radius / minimum, ball, {}});
+}
+
+/// The walls to side faces below the minimum width plus the reach.
+template <int dim>
+void add_face_walls(const MedialBalls<dim>& medial, double minimum, double reach,
+                    std::vector<NarrowPlace<dim>>& places) {
+  const auto& psi = medial.interpolant();
+  for (const auto& wall : walls_to_faces<dim>(psi, medial.seeds(), minimum + reach)) {
+    const Vec<dim> middle = cartesian_position<dim>(psi.lattice(), 0.5 * (wall.point + wall.foot));
+    places.push_back({WidthKind::wall, middle, 1 - wall.width / minimum, {}, {}, wall});
+  }
 }
 
 /// The internal corners whose radius is below the minimum plus the reach.
@@ -223,8 +236,21 @@ Width<dim> width_of_ball(const MedialBalls<dim>& medial, WidthKind kind, const M
                                             {-ball.cosine * slope, slope})};
 }
 
+/// The width of a wall to a side face, which stays in its place.
+template <int dim>
+Width<dim> width_to_face(const CubicInterpolant<dim>& psi, const FaceWall<dim>& given) {
+  const FaceWall<dim> wall = thinnest_near<dim>(psi, given);
+  const Vec<dim> middle = cartesian_position<dim>(psi.lattice(), 0.5 * (wall.point + wall.foot));
+  return {.kind = WidthKind::wall,
+          .value = wall.width,
+          .minimum = 0,
+          .place = polar<dim>(middle),
+          .slopes = displacement<dim>(psi, wall.point)};
+}
+
 template <int dim>
 Width<dim> width_at(const MedialBalls<dim>& medial, const NarrowPlace<dim>& narrow) {
+  if (narrow.to_face) return width_to_face<dim>(medial.interpolant(), *narrow.to_face);
   const auto [seed, other] = narrow.ball.touched;
   std::optional<Chord<dim>> chord;
   if (narrow.gap > -critical)
@@ -285,6 +311,7 @@ std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSiz
   const auto& grid = psi.lattice.grid();
   std::vector<NarrowPlace<dim>> places;
   if (size.wall > 0) add_balls(*medial, WidthKind::wall, size.wall, reach, places);
+  if (size.wall > 0) add_face_walls(*medial, size.wall, reach, places);
   if (size.gap > 0) add_balls(*medial, WidthKind::gap, size.gap, reach, places);
   add_corners(coefficients, size.radius, reach, places);
   std::ranges::stable_sort(places, std::ranges::greater(), &NarrowPlace<dim>::gap);

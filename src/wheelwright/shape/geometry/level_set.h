@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "wheelwright/shape/geometry/lagrange.h"
@@ -23,6 +24,12 @@ struct LevelSet {
     return result;
   }
 };
+
+/// Whether a node lies in a hole.
+template <int dim>
+bool has_holes(const LevelSet<dim>& psi) {
+  return std::ranges::any_of(psi.values, [](double value) { return value > 0; });
+}
 
 /// A quadrature point of the moving boundary {psi = 0} of one sector.
 template <int dim>
