@@ -102,19 +102,18 @@ struct NotBegunText {
 template <int dim>
 class HeldRun {
  public:
-  using Begin = Expected<Run<dim>, NotBegun<dim>> (*)(const Case&, const std::filesystem::path&);
-
-  HeldRun(const HeldCase& held, const std::string& folder, Begin begin) : folder_(folder) {
-    auto run = without_gil([&] { return begin(held.value, folder); });
+  HeldRun(const std::string& folder, Expected<Run<dim>, NotBegun<dim>> run) : folder_(folder) {
     if (!run) std::visit(NotBegunText<dim>(), run.failure());
     run_.emplace(*std::move(run));
   }
 
   static std::unique_ptr<HeldRun> begun(const HeldCase& held, const std::string& folder) {
-    return std::make_unique<HeldRun>(held, folder, &Run<dim>::begin);
+    return std::make_unique<HeldRun>(folder,
+                                     without_gil([&] { return Run<dim>::begin(held.value, folder); }));
   }
   static std::unique_ptr<HeldRun> resumed(const HeldCase& held, const std::string& folder) {
-    return std::make_unique<HeldRun>(held, folder, &Run<dim>::resume);
+    return std::make_unique<HeldRun>(folder,
+                                     without_gil([&] { return Run<dim>::resume(held.value, folder); }));
   }
 
   void send(const std::string& json) {
