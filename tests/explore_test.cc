@@ -229,7 +229,7 @@ TEST(Starts, OfATurnedWheelAreBodiesOfRevolution) {
   EXPECT_EQ(texts.size(), 6u);
 }
 
-TEST(Starts, OfAFreeWheelIn3DAreOfAllKinds) {
+TEST(Starts, SlowOfAFreeWheelIn3DAreOfAllKinds) {
   const Case c = coarse_solid(Manufacture::free);
   const std::vector<StartKind> kinds = kinds_of_starts(c);
   EXPECT_EQ(std::set<StartKind>(kinds.begin(), kinds.end()).size(), 14u);
@@ -245,7 +245,7 @@ TEST(Starts, OfAFreeWheelIn3DAreOfAllKinds) {
 }
 
 // Along every line parallel to the axle there is one piece of material at most, and it contains the plane.
-TEST(Starts, OfAMouldedWheelComeOutOfIt) {
+TEST(Starts, SlowOfAMouldedWheelComeOutOfIt) {
   for (const double plane : {0., 0.04, 0.06}) {
     Case c = coarse_solid(Manufacture::moulded);
     c.optimizer.parting_plane = plane;
@@ -262,7 +262,7 @@ TEST(Starts, OfAMouldedWheelComeOutOfIt) {
   }
 }
 
-TEST(Starts, OfAPrintedWheelStandOnThePlate) {
+TEST(Starts, SlowOfAPrintedWheelStandOnThePlate) {
   for (const SideFace plate : {SideFace::smaller_z, SideFace::larger_z}) {
     Case c = coarse_solid(Manufacture::printed);
     c.holes.grooves[0].side = plate == SideFace::smaller_z ? GrooveSide::larger_z : GrooveSide::smaller_z;

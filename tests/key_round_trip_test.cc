@@ -169,6 +169,8 @@ std::vector<Case> starting_points() {
       moulded.optimizer.made = Manufacture::moulded;
       moulded.optimizer.parting_plane = 0.5 * moulded.wheel.width;
       cases.push_back(moulded);
+      moulded.optimizer.parting_plane.reset();
+      cases.push_back(moulded);
       Case printed = plain;
       printed.optimizer.made = Manufacture::printed;
       printed.optimizer.overhang = 0.5;
