@@ -184,7 +184,7 @@ Zones turned_back(const Zones& zones, int columns) {
   return result;
 }
 
-/// What is measured after the shape itself. With `sizes` no shape is solved.
+/// These are measured after the shape itself. With `sizes` no shape is solved.
 enum class Afterwards { nothing, parts, work, sizes };
 
 /// The wheel whose equations the solver solves for this shape: its half, or turned back.

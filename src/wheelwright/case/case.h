@@ -456,7 +456,7 @@ enum class NucleationTime { never, converged };
 /// How the wheel is made, which every shape of a run allows; in 3D.
 enum class Manufacture { free, extruded, turned, moulded, printed };
 
-/// Where the parting plane of a moulded wheel comes from.
+/// Tells where the parting plane of a moulded wheel comes from.
 enum class Parting {
   given,  ///< from the case, or its default
   found,  ///< from the first wheels of all planes, before the run begins

@@ -8,7 +8,7 @@
 namespace wheelwright {
 namespace {
 
-/// Of the depth of both grooves together, at the inner and at the outer radius.
+/// The share of a groove in the depth of both grooves together, at the inner and at the outer radius.
 struct Share {
   double inner, outer;
 
@@ -22,7 +22,7 @@ struct Disc {
   Share smaller_z, larger_z;  ///< the grooves in these sides
 };
 
-/// Where the disc must be, as a fraction of the width; the middle if it is free.
+/// The place where the disc must be, as a fraction of the width. A free disc is in the middle.
 double place(const AxialSpace& across) {
   return across.kept ? std::clamp(*across.kept / across.width, 0.0, 1.0) : 0.5;
 }

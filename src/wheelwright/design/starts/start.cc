@@ -39,7 +39,7 @@ constexpr std::array plane_kinds{StartKind::two_staggered_rings,
                                  StartKind::ellipses,
                                  StartKind::three_rings};
 
-/// Those of the plane, with one of the others after every second one.
+/// The kinds of the plane, where one of the others follows every second kind.
 std::vector<StartKind> mixed_with_plane_kinds(const std::vector<StartKind>& others) {
   std::vector<StartKind> result;
   for (std::size_t i = 0; i < plane_kinds.size(); ++i) {

@@ -165,13 +165,9 @@ Expected<std::vector<UtilizedPoints>> utilized(const StateSolver<dim>& solver, c
   return utilized_points(solver, psi, **states);
 }
 
-}  // namespace
-
-namespace {
-
 /// The narrowest place of walls or holes in 3D, whose ends are seen along the axle.
-std::optional<cad::Clearance> clearance(const LevelSet<3>& psi, Side side) {
-  const auto narrowest = narrowest_place(psi, side);
+std::optional<cad::Clearance> clearance(const MedialBalls<3>& medial, Side side) {
+  const auto narrowest = narrowest_place(medial, side);
   if (!narrowest) return {};
   const Vec<2> middle{narrowest->middle[0], narrowest->middle[1]};
   return cad::Clearance{narrowest->width, middle, middle};
@@ -188,7 +184,8 @@ Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim
     return OutlineMeasures{cad::clearances(*outline, grid.n_sectors, cad::clearance_step * grid.outer_radius),
                            cad::roughness(*outline, grid.n_sectors, grid.resolution())};
   } else {
-    return OutlineMeasures{.clearances = {clearance(psi, Side::material), clearance(psi, Side::holes)},
+    const MedialBalls<3> medial(psi);
+    return OutlineMeasures{.clearances = {clearance(medial, Side::material), clearance(medial, Side::holes)},
                            .closed_cavities = closed_cavities(psi)};
   }
 }

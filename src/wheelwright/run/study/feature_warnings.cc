@@ -5,6 +5,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/run/study/study.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 namespace {
@@ -63,16 +64,23 @@ std::vector<std::string> feature_warnings(const Case& c, const OutlineMeasures& 
         fmt::format("the thinnest wall, {:.4g} mm at {}, is only {:.1f} cells thick: its stress is not "
                     "resolved; optimizer.minimum_wall keeps walls thick, a finer grid resolves thinner ones",
                     measured.wall->width * mm, place(*measured.wall), measured.wall->width / cell));
-  if (const int n = measures.closed_cavities; n > 0)
+  if (measures.closed_cavities > 0)
     result.push_back(fmt::format(
-        "{} of each sector {} closed all around: no tool reaches {}, and powder or resin of a print stays "
-        "inside; optimizer.made = \"moulded\", \"turned\" or \"printed\" keeps holes open",
-        n == 1 ? "a hole" : fmt::format("{} holes", n), n == 1 ? "is" : "are", n == 1 ? "it" : "them"));
+        "holes that are closed all around: {} in each sector; no tool reaches them, and powder or resin of a "
+        "print stays inside; optimizer.made = \"moulded\" or \"printed\" keeps holes open",
+        measures.closed_cavities));
   return result;
 }
 
 Expected<OutlineMeasures, cad::OutlineFault> initial_outline_measures(const Case& c) {
-  return in_dimension_of(c, [&](auto dim) { return outline_measures<dim>(initial_shape<dim>(c)); });
+  return in_dimension_of(c, [&](auto dim) {
+    const LevelSet<dim> shape = initial_shape<dim>(c);
+    auto measures = outline_measures<dim>(shape);
+    if (dim == 3 && measures)
+      if (const auto section = outline_measures(mid_plane_section(shape)))
+        measures->roughness = section->roughness;
+    return measures;
+  });
 }
 
 }  // namespace wheelwright

@@ -18,7 +18,8 @@ inline constexpr double least_cells_per_wall = 3;
 /// band at rim or tread, and closed cavities.
 std::vector<std::string> feature_warnings(const Case& c, const OutlineMeasures& measures);
 
-/// outline_measures() of the initial shape.
+/// outline_measures() of the initial shape; in 3D with the roughness of its section in the middle of the
+/// width.
 Expected<OutlineMeasures, cad::OutlineFault> initial_outline_measures(const Case& c);
 
 }  // namespace wheelwright

@@ -12,13 +12,12 @@ std::vector<FaceWall<dim>> walls_to_faces(const CubicInterpolant<dim>& psi, std:
                                           double width) {
   std::vector<FaceWall<dim>> walls;
   if constexpr (dim == 3) {
-    constexpr double parallel = 0.94;  // cosine of 20 degrees
     const auto& lattice = psi.lattice();
     const double last = lattice.nodes()[2] - 1, spacing = lattice.grid().width / last;
     for (const Vec<3>& seed : seeds)
       for (const double face : {0.0, last}) {
         const double thickness = std::abs(seed[2] - face) * spacing, towards_face = face == 0 ? -1 : 1;
-        if (thickness < width && -towards_face * normal_at<3>(psi, seed)[2] > parallel)
+        if (thickness < width && -towards_face * normal_at<3>(psi, seed)[2] > parallel_to_surface)
           walls.push_back({seed, {seed[0], seed[1], face}, thickness});
       }
   }

@@ -7,8 +7,12 @@
 
 namespace wheelwright {
 
-/// A place of the boundary {psi = 0} that is parallel, to 20 degrees, to the side face behind it: material
-/// lies between them.
+/// Least cosine between the normals of a part of the boundary and of a surface of the ring that count as
+/// parallel: 20 degrees.
+inline constexpr double parallel_to_surface = 0.94;
+
+/// A place of the boundary {psi = 0} that is parallel (parallel_to_surface) to the side face behind it:
+/// material lies between them.
 template <int dim>
 struct FaceWall {
   Vec<dim> point;  ///< on the boundary, in units of the node spacing

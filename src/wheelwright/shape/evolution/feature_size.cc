@@ -165,10 +165,6 @@ LevelSet<dim> without_small_holes(LevelSet<dim> psi, double diameter) {
   return psi;
 }
 
-}  // namespace
-
-namespace {
-
 /// The centres of balls that thicken thin walls: in their middle, or at side faces the balls that touch
 /// these.
 template <int dim>
@@ -263,7 +259,12 @@ std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const Fe
   const MedialBalls<dim> medial(psi);
   const auto add = [&](ShapeEventKind kind, Side side, double width) {
     if (width <= 0) return;
-    const auto balls = medial.in(side, 0.5 * width * (1 - rounding));
+    auto balls = medial.in(side, 0.5 * width * (1 - rounding));
+    if (side == Side::material)
+      for (const auto& wall :
+           walls_to_faces<dim>(medial.interpolant(), medial.seeds(), width * (1 - rounding)))
+        balls.push_back(
+            {cartesian_position<dim>(psi.lattice, 0.5 * (wall.point + wall.foot)), 0.5 * wall.width});
     if (balls.empty()) return;
     const auto& minimum = *std::ranges::min_element(balls, {}, &MedialBall<dim>::radius);
     Vec<dim> place = polar<dim>(minimum.centre);

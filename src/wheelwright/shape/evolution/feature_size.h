@@ -11,7 +11,7 @@ namespace wheelwright {
 
 /// The minimum widths of features [m]; 0: any.
 struct FeatureSize {
-  double wall = 0;    ///< of material between two opposite edges
+  double wall = 0;    ///< of material between two opposite edges, in 3D also between an edge and a side face
   double gap = 0;     ///< of a hole, between two opposite edges
   double radius = 0;  ///< of internal corners, whose centre is in a hole
 
@@ -27,8 +27,8 @@ inline FeatureSize larger(const FeatureSize& a, const FeatureSize& b) {
 }
 
 /// Thickens walls thinner than `wall` on both sides to that width plus 2 %: adds a ball of that diameter at
-/// each of thin_walls(), and balls up to 24 % larger where a neck between the nodes is still too thin.
-/// Elsewhere the shape is unchanged.
+/// each of thin_walls(), and in 3D beside side faces (walls_to_faces()), and balls up to 24 % larger where a
+/// neck between the nodes is still too thin. Elsewhere the shape is unchanged.
 template <int dim>
 LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall);
 

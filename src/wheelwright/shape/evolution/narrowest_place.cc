@@ -2,74 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
+#include "wheelwright/shape/evolution/face_walls.h"
 #include "wheelwright/shape/evolution/seeds.h"
 #include "wheelwright/shape/geometry/components.h"
 
 namespace wheelwright {
 namespace {
 
-/// The width between opposite parts of the boundary: the smallest diameter of balls that touch it at a seed
-/// and pass through the seed opposite. (MedialBall::radius may be smaller, where a ball of a round hole
-/// shrank further by the deviations of neighbouring seeds.)
+/// The smallest diameter of balls that touch the boundary at a seed and pass through the seed opposite, among
+/// the balls that MedialBalls finds below a radius. (MedialBall::radius may be smaller, where a ball of a
+/// round hole shrank further by the deviations of neighbouring seeds.)
 template <int dim>
-std::optional<NarrowestPlace<dim>> between_edges(const LevelSet<dim>& psi, Side side) {
-  const auto& grid = psi.lattice.grid();
+std::optional<NarrowestPlace<dim>> between_edges(const MedialBalls<dim>& medial, Side side, double radius) {
+  constexpr double parallel = -0.95;  // the ends of a neck, unlike the sides of a corner
+  const auto& lattice = medial.interpolant().lattice();
   const double outward = side == Side::material ? 1 : -1;
-  const MedialBalls<dim> medial(psi);
-  const double largest = 0.5 * (grid.outer_radius - grid.inner_radius);
-  double radius = grid.resolution();
-  auto balls = medial.in(side, radius);
-  while (balls.empty() && radius < largest) {  // large balls take many steps to shrink
-    radius = std::min(2 * radius, largest);
-    balls = medial.in(side, radius);
-  }
-  constexpr double parallel = -0.9;  // the ends of a neck, unlike the sides of a corner
   std::optional<NarrowestPlace<dim>> narrowest;
-  for (const auto& ball : balls) {
+  for (const auto& ball : medial.in(side, radius)) {
     const auto [seed, other] = ball.touched;
-    const Vec<dim> p = cartesian_position<dim>(psi.lattice, medial.point(seed)),
-                   across = p - cartesian_position<dim>(psi.lattice, medial.point(other)),
-                   normal = outward * medial.normal(seed);
     if (dot<dim>(medial.normal(seed), medial.normal(other)) > parallel) continue;
+    const Vec<dim> p = cartesian_position<dim>(lattice, medial.point(seed)),
+                   across = p - cartesian_position<dim>(lattice, medial.point(other)),
+                   normal = outward * medial.normal(seed);
     const double width = dot<dim>(across, across) / dot<dim>(across, normal);
     if (width > 0 && (!narrowest || width < narrowest->width)) narrowest = {width, p - 0.5 * width * normal};
   }
   return narrowest;
 }
 
-/// A surface of the ring as seen from a point: the direction to it, and its distance.
+/// Searches with growing balls, because large ones take many steps to shrink.
 template <int dim>
-struct RingSurface {
-  Vec<dim> direction;
-  double distance;
-};
-
-template <int dim>
-std::vector<RingSurface<dim>> surfaces_of_ring(const PolarGrid<dim>& grid, const Vec<dim>& x) {
-  const double radius = std::hypot(x[0], x[1]);
-  Vec<dim> outwards{};
-  for (int d = 0; d < 2; ++d) outwards[d] = x[d] / radius;
-  std::vector<RingSurface<dim>> result{{-1.0 * outwards, radius - grid.inner_radius},
-                                       {outwards, grid.outer_radius - radius}};
-  if constexpr (dim == 3) {
-    result.push_back({{0, 0, -1}, x[2]});
-    result.push_back({{0, 0, 1}, grid.width - x[2]});
-  }
-  return result;
+std::optional<NarrowestPlace<dim>> between_edges(const MedialBalls<dim>& medial, Side side) {
+  const auto& grid = medial.interpolant().lattice().grid();
+  const double largest = 0.5 * (grid.outer_radius - grid.inner_radius);
+  for (double radius = std::min(grid.resolution(), largest);; radius = std::min(2 * radius, largest))
+    if (const auto found = between_edges(medial, side, radius); found || radius == largest) return found;
 }
 
+/// The material between the boundary and the surfaces of the ring.
 template <int dim>
-std::optional<NarrowestPlace<dim>> to_surfaces(const LevelSet<dim>& psi) {
-  constexpr double parallel = 0.94;  // cosine of 20 degrees
-  const CubicInterpolant<dim> interpolant(psi);
+std::optional<NarrowestPlace<dim>> to_surfaces(const MedialBalls<dim>& medial) {
+  const auto& psi = medial.interpolant();
+  const auto& [lattice, grid] = std::tie(psi.lattice(), psi.lattice().grid());
   std::optional<NarrowestPlace<dim>> narrowest;
-  for (const Vec<dim>& seed : zero_seeds<dim>(interpolant)) {
-    const Vec<dim> x = cartesian_position<dim>(psi.lattice, seed), normal = normal_at<dim>(interpolant, seed);
-    for (const auto& [direction, distance] : surfaces_of_ring<dim>(psi.lattice.grid(), x))
-      if (-dot<dim>(normal, direction) > parallel && (!narrowest || distance < narrowest->width))
-        narrowest = {distance, x + 0.5 * distance * direction};
+  const auto add = [&](double width, const Vec<dim>& middle) {
+    if (!narrowest || width < narrowest->width) narrowest = {width, middle};
+  };
+  for (const auto& wall : walls_to_faces<dim>(psi, medial.seeds(), HUGE_VAL))
+    add(wall.width, cartesian_position<dim>(lattice, 0.5 * (wall.point + wall.foot)));
+  for (const Vec<dim>& seed : medial.seeds()) {
+    const Vec<dim> x = cartesian_position<dim>(lattice, seed), normal = normal_at<dim>(psi, seed);
+    const double radius = std::hypot(x[0], x[1]);
+    const Vec<2> outwards{x[0] / radius, x[1] / radius};
+    const double along_radius = normal[0] * outwards[0] + normal[1] * outwards[1];
+    const double width = along_radius > 0 ? radius - grid.inner_radius : grid.outer_radius - radius;
+    if (std::abs(along_radius) <= parallel_to_surface) continue;
+    Vec<dim> middle = x;
+    for (int d = 0; d < 2; ++d) middle[d] -= std::copysign(0.5 * width, along_radius) * outwards[d];
+    add(width, middle);
   }
   return narrowest;
 }
@@ -77,10 +70,10 @@ std::optional<NarrowestPlace<dim>> to_surfaces(const LevelSet<dim>& psi) {
 }  // namespace
 
 template <int dim>
-std::optional<NarrowestPlace<dim>> narrowest_place(const LevelSet<dim>& psi, Side side) {
-  const auto inside = between_edges(psi, side);
+std::optional<NarrowestPlace<dim>> narrowest_place(const MedialBalls<dim>& medial, Side side) {
+  const auto inside = between_edges(medial, side);
   if (side == Side::holes) return inside;
-  const auto outside = to_surfaces(psi);
+  const auto outside = to_surfaces(medial);
   if (!inside || (outside && outside->width < inside->width)) return outside;
   return inside;
 }

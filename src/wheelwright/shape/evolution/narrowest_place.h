@@ -17,7 +17,7 @@ struct NarrowestPlace {
 /// For walls also that between the boundary and the rim, the tread, or a side face, where they are parallel
 /// to 20 degrees. Nothing if there is none that is narrower than the ring is thick.
 template <int dim>
-std::optional<NarrowestPlace<dim>> narrowest_place(const LevelSet<dim>& psi, Side side);
+std::optional<NarrowestPlace<dim>> narrowest_place(const MedialBalls<dim>& medial, Side side);
 
 /// The number of holes of a sector that reach no side face. A body with such a cavity can only be cast around
 /// a lost core, or printed with powder or resin left inside.
