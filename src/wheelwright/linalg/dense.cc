@@ -109,14 +109,28 @@ Matrix sum(Matrix a, const Matrix& b) {
   return a;
 }
 
-Matrix transposed(const Matrix& a) {
+namespace {
+
+/// Sets result(j, i) = f(a(i, j)).
+template <class Scalar, class F>
+DenseMatrix<Scalar> turned(const DenseMatrix<Scalar>& a, F f) {
   constexpr int tile = 32;  // fits the cache, by rows and by columns
-  Matrix result(a.columns(), a.rows());
+  auto result = DenseMatrix<Scalar>::unfilled(a.columns(), a.rows());
   for (int j0 = 0; j0 < a.columns(); j0 += tile)
     for (int i0 = 0; i0 < a.rows(); i0 += tile)
       for (int j = j0; j < std::min(j0 + tile, a.columns()); ++j)
-        for (int i = i0; i < std::min(i0 + tile, a.rows()); ++i) result(j, i) = a(i, j);
+        for (int i = i0; i < std::min(i0 + tile, a.rows()); ++i) result(j, i) = f(a(i, j));
   return result;
+}
+
+}  // namespace
+
+Matrix transposed(const Matrix& a) {
+  return turned(a, [](double x) { return x; });
+}
+
+ComplexMatrix adjoint(const ComplexMatrix& a) {
+  return turned(a, [](const std::complex<double>& x) { return std::conj(x); });
 }
 
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b) {

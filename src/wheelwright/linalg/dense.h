@@ -107,6 +107,7 @@ void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int
 /// Returns a + b.
 Matrix sum(Matrix a, const Matrix& b);
 Matrix transposed(const Matrix& a);
+ComplexMatrix adjoint(const ComplexMatrix& a);
 
 /// Returns op_a(a) * op_b(b).
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b);

@@ -71,15 +71,6 @@ InterfaceRoute best_route(const BoundarySymmetry& symmetry, const SectorHarmonic
                                                              : InterfaceRoute::all_unknowns;
 }
 
-/// How many compliances of an outer line with n unknowns exist at a time. Independent of the number of
-/// threads, so that their sums are too.
-int harmonics_together(int n, int n_harmonics) {
-  constexpr double memory = 256e6;
-  constexpr int fewest = 4;
-  const double most = memory / (sizeof(std::complex<double>) * double(n) * n);
-  return static_cast<int>(std::clamp<double>(most, std::min(fewest, n_harmonics), n_harmonics));
-}
-
 std::shared_ptr<const BoundarySymmetry> without_symmetry(int n_interface, int n_outer) {
   auto symmetry = std::make_shared<BoundarySymmetry>();
   symmetry->n_interface = n_interface;
@@ -411,52 +402,9 @@ Matrix CyclicStiffness<dim>::outer_displacements(const Matrix& condensed_loads) 
 }
 
 template <int dim>
-std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest,
-                                                           std::optional<int> wanted_together) const {
-  const int n = n_sectors(), n_harmonics = harmonics_.n_harmonics();
-  std::vector<int> needed;
-  for (int ahead = 0; ahead < n; ++ahead)
-    if (std::min(ahead, n - ahead) <= farthest) needed.push_back(ahead);
-  const int n_needed = static_cast<int>(needed.size());
-  std::vector<Matrix> by_sector(n);
-  for (const int ahead : needed) by_sector[ahead] = Matrix(n_outer_, n_outer_);
-
-  // One column per harmonic of a batch, real parts and then imaginary ones, times the phases of every sector.
-  const int together = wanted_together.value_or(harmonics_together(n_outer_, n_harmonics));
-  for (int first_harmonic = 0; first_harmonic < n_harmonics; first_harmonic += together) {
-    const int n_batch = std::min(together, n_harmonics - first_harmonic);
-    std::vector<ComplexMatrix> by_harmonic(n_batch);
-    parallel_for(n_batch,
-                 [&](int k) { by_harmonic[k] = harmonic_factors_[first_harmonic + k].outer_compliance(); });
-    Matrix phases(2 * n_batch, n_needed);
-    for (int k = 0; k < n_needed; ++k)
-      for (int b = 0; b < n_batch; ++b) {
-        const int h = first_harmonic + b;
-        const std::complex<double> phase =
-            (h == 0 || 2 * h == n ? 1.0 : 2.0) / n * harmonics_.phase(h, needed[k]);
-        phases(b, k) = phase.real();
-        phases(n_batch + b, k) = -phase.imag();
-      }
-    constexpr int entries_together = 1024;
-    const size_t n_entries = size_t(n_outer_) * n_outer_;
-    parallel_for(static_cast<int>((n_entries + entries_together - 1) / entries_together), [&](int part) {
-      const size_t first = size_t(part) * entries_together;
-      const int size = static_cast<int>(std::min<size_t>(entries_together, n_entries - first));
-      auto entries = Matrix::unfilled(size, 2 * n_batch);
-      for (int b = 0; b < n_batch; ++b)
-        for (int k = 0; k < size; ++k) {
-          const std::complex<double> entry = by_harmonic[b].entries()[first + k];
-          entries(k, b) = entry.real();
-          entries(k, n_batch + b) = entry.imag();
-        }
-      const Matrix sums = product(entries, Op::none, phases, Op::none);
-      for (int k = 0; k < n_needed; ++k) {
-        double* to = by_sector[needed[k]].data() + first;
-        for (int i = 0; i < size; ++i) to[i] += sums.column(k)[i];
-      }
-    });
-  }
-  return by_sector;
+std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest, std::optional<int> together) const {
+  return harmonics_.between_sectors(
+      n_outer_, n_outer_, farthest, [&](int harmonic) { return outer_compliance_of(harmonic); }, together);
 }
 
 template <int dim>

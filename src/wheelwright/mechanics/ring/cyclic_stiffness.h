@@ -47,6 +47,7 @@ class CyclicStiffness {
 
   const SectorStiffness<dim>& sector() const { return sector_; }
   int n_sectors() const { return harmonics_.n_sectors(); }
+  const SectorHarmonics& harmonics() const { return harmonics_; }
   int n_boundary() const { return n_boundary_; }
   int n_outer() const { return n_outer_; }  ///< the last of the boundary unknowns
   const PartialCholesky& sector_factor() const { return sector_factor_; }
@@ -83,11 +84,13 @@ class CyclicStiffness {
   /// Displacements of the outer line for condensed loads on it, both n_outer x load cases.
   Matrix outer_displacements(const Matrix& condensed_loads) const;
 
-  /// The same as matrices: displacements of the outer line of a sector for unit loads on that of another.
-  /// Place `ahead` holds them for a sector `ahead` sectors farther on, modulo n_sectors(); those that are
-  /// farther away than `farthest` in both directions are empty. `together`: of how many harmonics compliances
-  /// exist at a time; by default at least four, and as many as take a quarter of a gigabyte.
+  /// The same as matrices, SectorHarmonics::between_sectors(): displacements of the outer line of a sector
+  /// for unit loads on that of another.
   std::vector<Matrix> outer_compliance(int farthest, std::optional<int> together = {}) const;
+  /// The Hermitian block of a harmonic, of which they are made.
+  ComplexMatrix outer_compliance_of(int harmonic) const {
+    return harmonic_factors_[harmonic].outer_compliance();
+  }
 
   /// Boundary displacements (n_boundary x load cases) from those of the outer line and the interface loads
   /// returned by eliminate_interface().

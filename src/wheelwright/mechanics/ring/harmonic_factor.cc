@@ -69,13 +69,6 @@ void HarmonicFactor::apply(Step step, Rows rows, ComplexMatrix& x) const {
 
 namespace {
 
-ComplexMatrix adjoint(const ComplexMatrix& a) {
-  auto result = ComplexMatrix::unfilled(a.columns(), a.rows());
-  for (int j = 0; j < a.columns(); ++j)
-    for (int i = 0; i < a.rows(); ++i) result(j, i) = std::conj(a(i, j));
-  return result;
-}
-
 ComplexMatrix complex(const Matrix& a) {
   auto result = ComplexMatrix::unfilled(a.rows(), a.columns());
   std::copy(a.entries().begin(), a.entries().end(), result.entries().begin());

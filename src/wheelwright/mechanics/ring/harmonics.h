@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "wheelwright/linalg/dense.h"
 
 namespace wheelwright {
@@ -27,6 +30,15 @@ class SectorHarmonics {
   /// matrix per harmonic, with one column per vector.
   std::vector<ComplexMatrix> forward_each(const Matrix& by_sector) const;
   Matrix backward_each(const std::vector<ComplexMatrix>& by_harmonic) const;
+
+  /// A linear map on the vectors of the ring that is the same for all sectors, from its blocks
+  /// `of_harmonic(h)`, all of this size. Place `ahead` of the result maps the vector of a sector to that of
+  /// the sector `ahead` sectors farther on, modulo n_sectors(); places that are farther away than `farthest`
+  /// in both directions are empty. `together`: how many blocks exist at a time; by default at least four, and
+  /// as many as take a quarter of a gigabyte.
+  std::vector<Matrix> between_sectors(int rows, int columns, int farthest,
+                                      const std::function<ComplexMatrix(int harmonic)>& of_harmonic,
+                                      std::optional<int> together = {}) const;
 
  private:
   int n_sectors_;

@@ -1,10 +1,12 @@
 #include "wheelwright/mechanics/ring/surface_compliance.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/periodic.h"
+#include "wheelwright/mechanics/ring/line_harmonics.h"
 
 namespace wheelwright {
 namespace {
@@ -44,12 +46,19 @@ class SeamMap {
       multiply_rows(1, tread_.line_of_base(), base, per_column() * k, 0, result, first + per_column());
       for (int j = 0; j < base.columns(); ++j)
         std::copy_n(base.column(j) + per_column() * (k + reach()), per_column(), result.column(j) + first);
-      if (std::abs(apart) > tread_.reach()) continue;
-      const Matrix& own = tread_.line_compliance(apart);
-      for (int j = 0; j < n_line(); ++j)
-        for (int i = 0; i < n_line(); ++i) result(first + per_column() + i, per_column() + j) += own(i, j);
+      add_own_lines(apart, first, result);
     }
     return result;
+  }
+
+  /// Adds the compliance of the lines on a fixed base to the displacements of the seam `apart` columns
+  /// farther on, which begin in row `first`.
+  void add_own_lines(int apart, int first, Matrix& displacements) const {
+    if (std::abs(apart) > tread_.reach()) return;
+    const Matrix& own = tread_.line_compliance(apart);
+    for (int j = 0; j < n_line(); ++j)
+      for (int i = 0; i < n_line(); ++i)
+        displacements(first + per_column() + i, per_column() + j) += own(i, j);
   }
 
  private:
@@ -186,6 +195,58 @@ void apply_to_outer_line(const CyclicStiffness<dim>& ring, const Tread<dim>& tre
   });
 }
 
+/// Sectors between a seam and the farthest of those that are at most width + 1 columns apart.
+int farthest_sector(int width, int per_sector) { return (width + per_sector) / per_sector; }
+
+/// The seams X G X^T of a harmonic, one below the other, for unit loads on the unknowns of the given ones.
+template <int dim>
+ComplexMatrix seams_of_harmonic(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
+                                std::span<const int> seams, int harmonic) {
+  const int n_base = tread.base_per_column(), n_line = tread.n_line(), n_seam = tread.n_seam(),
+            per_sector = tread.columns_per_sector();
+  const LineHarmonics lines(tread, ring.harmonics(), harmonic);
+  const ComplexMatrix base = ring.outer_compliance_of(harmonic), base_of_lines = lines.times_adjoint(base),
+                      lines_of_base = adjoint(base_of_lines), own = lines.times_adjoint(lines_of_base);
+  auto result = ComplexMatrix::unfilled(per_sector * n_seam, static_cast<int>(seams.size()) * n_seam);
+  for (int k = 0; k < static_cast<int>(seams.size()); ++k)
+    for (int j = 0; j < n_seam; ++j) {
+      const bool is_base = j < n_base;
+      const int column = is_base ? n_base * seams[k] + j : n_line * seams[k] + j - n_base;
+      const std::complex<double>*on_base = (is_base ? base : base_of_lines).column(column),
+            *on_lines = (is_base ? lines_of_base : own).column(column);
+      for (int c = 0; c < per_sector; ++c) {
+        std::complex<double>* to = result.column(n_seam * k + j) + n_seam * c;
+        std::copy_n(on_base + n_base * c, n_base, to);
+        std::copy_n(on_lines + n_line * c, n_line, to + n_base);
+      }
+    }
+  return result;
+}
+
+/// responses() of some seams of the sector, with the tread applied in every harmonic.
+template <int dim>
+void map_harmonics(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
+                   std::span<const int> seams, std::vector<Matrix>& responses) {
+  const SeamMap<dim> map(tread);
+  const int n_seam = map.n_seam(), per_sector = tread.columns_per_sector(),
+            n_seams = static_cast<int>(seams.size()), range = width + 1;
+  const std::vector<Matrix> by_sector = ring.harmonics().between_sectors(
+      per_sector * n_seam, n_seams * n_seam, farthest_sector(width, per_sector),
+      [&](int harmonic) { return seams_of_harmonic(ring, tread, seams, harmonic); });
+  parallel_for(n_seams, [&](int k) {
+    auto result = Matrix::unfilled(n_seam * (2 * range + 1), n_seam);
+    for (const SectorPart& part : by_sectors(seams[k] - range, 2 * range + 1, per_sector)) {
+      const Matrix& ahead = by_sector[wrap(part.sector, ring.n_sectors())];
+      for (int j = 0; j < n_seam; ++j)
+        std::copy_n(ahead.column(n_seam * k + j) + n_seam * part.column, n_seam * part.n,
+                    result.column(j) + n_seam * part.first);
+    }
+    for (int apart = -range; apart <= range; ++apart)
+      map.add_own_lines(apart, n_seam * (apart + range), result);
+    responses[seams[k]] = std::move(result);
+  });
+}
+
 /// The mirror image of a seam's unknown in the plane of azimuth 0: unknown `image` of seam -c - `behind`.
 struct SeamImage {
   int image, behind;
@@ -255,7 +316,7 @@ struct Work {
   double time() const { return 2 * triangular + products; }
 };
 
-/// Of SeamMap::seen(), which both routes end with.
+/// Of SeamMap::seen(), with which the routes end that apply the tread to the sectors.
 template <int dim>
 double flops_of_seeing(const Tread<dim>& tread, int width, double n_seams) {
   return 2 * n_seams * tread.n_seam() * static_cast<double>(tread.line_of_base().entries().size()) *
@@ -265,23 +326,31 @@ double flops_of_seeing(const Tread<dim>& tread, int width, double n_seams) {
 /// A product of a real number and a complex one counts as two real ones, one of two complex ones as four. The
 /// parts of a ring that is symmetric across its width have half the size.
 template <int dim>
-Work work_of_solving(const CyclicStiffness<dim>& ring, double n_loads) {
+Work work_of_solving(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width, double n_seams) {
   const int n_harmonics = ring.n_sectors() / 2 + 1;
-  const double outer = ring.n_outer();
+  const double outer = ring.n_outer(), n_loads = n_seams * tread.n_seam();
   const double of_harmonic = n_loads * (ring.is_mirror_symmetric() ? 2 : 4) * 2 * outer * outer *
                              (ring.is_symmetric_across_width() ? 0.5 : 1);
   return {.triangular = n_harmonics * of_harmonic,
-          .products = n_loads * n_harmonics * 8 * ring.n_sectors() * outer,
+          .products =
+              n_loads * n_harmonics * 8 * ring.n_sectors() * outer + flops_of_seeing(tread, width, n_seams),
           .longest_chain = of_harmonic};
+}
+
+/// Of the compliance of the outer line in one harmonic.
+template <int dim>
+double flops_of_outer_compliance(const CyclicStiffness<dim>& ring) {
+  const double outer = ring.n_outer();
+  return (ring.is_mirror_symmetric() ? 1 : 4) * 2.0 / 3 * outer * outer * outer *
+         (ring.is_symmetric_across_width() ? 0.25 : 1);
 }
 
 template <int dim>
 Work work_of_inverting(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
                        std::span<const int> seams) {
   const int n_harmonics = ring.n_sectors() / 2 + 1;
-  const double outer = ring.n_outer(), n_base = tread.base_per_column(), reach = tread.base_reach();
-  const double of_harmonic = (ring.is_mirror_symmetric() ? 1 : 4) * 2.0 / 3 * outer * outer * outer *
-                             (ring.is_symmetric_across_width() ? 0.25 : 1);
+  const double n_base = tread.base_per_column(), reach = tread.base_reach();
+  const double of_harmonic = flops_of_outer_compliance(ring);
   Work work{.triangular = n_harmonics * of_harmonic, .products = 0, .longest_chain = of_harmonic};
   double longest_group = 0;
   for (const auto group : runs(seams, seams_together)) {
@@ -293,7 +362,21 @@ Work work_of_inverting(const CyclicStiffness<dim>& ring, const Tread<dim>& tread
                                                 flops_of_seeing(tread, width, 1));
   }
   work.longest_chain += longest_group;
+  work.products += flops_of_seeing(tread, width, static_cast<double>(seams.size()));
   return work;
+}
+
+template <int dim>
+Work work_of_mapping(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
+                     std::span<const int> seams) {
+  const int n_harmonics = ring.n_sectors() / 2 + 1, per_sector = tread.columns_per_sector();
+  const int n_needed = std::min(ring.n_sectors(), 2 * farthest_sector(width, per_sector) + 1);
+  const double n_seam = tread.n_seam(), n_seams = static_cast<double>(seams.size());
+  const double of_harmonic = flops_of_outer_compliance(ring),
+               mapped = LineHarmonics::flops(tread, per_sector * n_seam);
+  return {.triangular = n_harmonics * of_harmonic,
+          .products = n_harmonics * (mapped + 4 * n_needed * per_sector * n_seam * n_seam * n_seams),
+          .longest_chain = of_harmonic + mapped};
 }
 
 }  // namespace
@@ -306,23 +389,33 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
   // R + X G X^T with the compliance R of the lines on a fixed base, that of the core G, and the seams X on
   // the base.
   const Seams seams = seams_of(loaded, ring.is_mirror_symmetric());
-  const double n_computed = static_cast<double>(seams.computed.size());
-  const Work solving = work_of_solving(ring, n_computed * tread.n_seam()),
-             inverting = work_of_inverting(ring, tread, width, seams.computed);
-  route_ = route.value_or(solving.time() < inverting.time() ? ComplianceRoute::solve_seams
-                                                            : ComplianceRoute::invert_outer_line);
-  const Work& work = route_ == ComplianceRoute::solve_seams ? solving : inverting;
-  flops_ = work.flops() + flops_of_seeing(tread, width, n_computed);
+  const std::array<std::pair<ComplianceRoute, Work>, 3> routes{
+      {{ComplianceRoute::solve_seams,
+        work_of_solving(ring, tread, width, static_cast<double>(seams.computed.size()))},
+       {ComplianceRoute::invert_outer_line, work_of_inverting(ring, tread, width, seams.computed)},
+       {ComplianceRoute::map_harmonics, work_of_mapping(ring, tread, width, seams.computed)}}};
+  const auto& [chosen, work] =
+      *(route ? std::ranges::find(routes, *route, [](const auto& r) { return r.first; })
+              : std::ranges::min_element(routes, {}, [](const auto& r) { return r.second.time(); }));
+  route_ = chosen;
+  flops_ = work.flops();
   longest_chain_flops_ = work.longest_chain;
-  if (route_ == ComplianceRoute::solve_seams) {
-    const size_t together = std::max(1, rhs_together / tread.n_seam());
-    for (size_t first = 0; first < seams.computed.size(); first += together)
-      solve_for_seams(
-          ring, tread, width,
-          std::span(seams.computed).subspan(first, std::min(together, seams.computed.size() - first)),
-          responses_);
-  } else {
-    apply_to_outer_line(ring, tread, width, seams.computed, responses_);
+  switch (route_) {
+    case ComplianceRoute::solve_seams: {
+      const size_t together = std::max(1, rhs_together / tread.n_seam());
+      for (size_t first = 0; first < seams.computed.size(); first += together)
+        solve_for_seams(
+            ring, tread, width,
+            std::span(seams.computed).subspan(first, std::min(together, seams.computed.size() - first)),
+            responses_);
+      break;
+    }
+    case ComplianceRoute::invert_outer_line:
+      apply_to_outer_line(ring, tread, width, seams.computed, responses_);
+      break;
+    case ComplianceRoute::map_harmonics:
+      map_harmonics(ring, tread, width, seams.computed, responses_);
+      break;
   }
   parallel_for(static_cast<int>(seams.mirrored.size()), [&](int k) {
     const int seam = seams.mirrored[k], image = columns_per_sector_ - seam;

@@ -5,11 +5,12 @@
 
 namespace wheelwright {
 
-/// How the compliance of the seams is computed from the factored ring. Both ways have the same result up to
+/// How the compliance of the seams is computed from the factored ring. All ways have the same result up to
 /// rounding errors.
 enum class ComplianceRoute {
   solve_seams,        ///< the ring is solved for a unit load on every unknown of a seam
   invert_outer_line,  ///< the compliance of the core's outer line is computed, and the tread applied to it
+  map_harmonics,      ///< the same, but the tread is applied in every harmonic of the sectors
 };
 
 /// The response of the tread's seams (Tread) to loads on them, with core and tread. The contact operators of
