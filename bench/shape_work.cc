@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/linalg/packed_lower.h"
 #include "wheelwright/mechanics/rolling/position_tree.h"
 
 namespace wheelwright::bench {
@@ -23,9 +24,18 @@ struct Harmonics {
         interface(double(ring.n_interface_of_harmonics()) / parts),
         outer(double(ring.n_outer()) / parts) {}
 
-  /// All harmonics, of which a complex one takes four times a real one, and the longest of them.
-  PartWork work(const std::string& phase, const std::string& part, double real) const {
-    return {phase, part, parts * real * (n + 3 * n_complex), parts * real * (n_complex > 0 ? 4 : 1)};
+  /// The factors of all harmonics, of which a complex one takes four times a real one, and of one harmonic
+  /// the panels: what is below a panel, and then the longest of the updates, which the threads share.
+  PartWork factors() const {
+    const double size = interface + outer, real = cube(size) / 3;
+    double chain = 0;
+    const PackedLower<double> stiffness(static_cast<int>(size), static_cast<int>(interface));
+    for (const auto& panel : stiffness.panels()) {
+      const double own = panel.n_columns, below = panel.stride - own;
+      chain += cube(own) / 3 + square(own) * below + 2 * own * std::min(own, below) * below;
+    }
+    return {of_factors, "factors of the harmonics", parts * real * (n + 3 * n_complex),
+            parts * std::min(real, chain) * (n_complex > 0 ? 4 : 1)};
   }
   /// The same of the vectors of all harmonics, complex ones but for two.
   PartWork work_on_vectors(const std::string& phase, const std::string& part, double real) const {
@@ -50,9 +60,9 @@ PartWork strong_modes(const CyclicStiffness<3>& ring, double modes) {
   return {of_factors, "strong modes of the interface", cholesky + shared, cholesky + std::min(shared, chain)};
 }
 
-/// Contact operators and Newton's method of one position.
+/// Contact operators and Newton's method of one position. The threads share the columns of the zone, twice.
 struct PositionWork {
-  double operators, newton;
+  double operators, longest_operator, newton;
 };
 
 PositionWork work_of_position(const ReducedContact<3>& contact, const Tread<3>& tread, int components,
@@ -62,7 +72,8 @@ PositionWork work_of_position(const ReducedContact<3>& contact, const Tread<3>& 
   const double responses = zone * 2 * 2 * (zone + 1) * seam * seam * column;
   const double samples = zone * 2 * column * 2 * seam * zone * column;
   const double active = double(points_in_contact) * components;
-  return {responses + samples, iterations * (2 * cube(active) / 3 + 2 * square(zone * column))};
+  return {responses + samples, (responses + samples) / zone,
+          iterations * (2 * cube(active) / 3 + 2 * square(zone * column))};
 }
 
 /// Operators and Newton's method of all positions: generations follow each other.
@@ -70,7 +81,7 @@ std::vector<PartWork> contacts(const RollingProblem<3>& problem, const RollingSo
   PartWork operators{of_positions, "operators of the positions", 0, 0},
       newton{of_positions, "Newton's method", 0, 0};
   for (const auto& generation : position_tree(solution.positions.size())) {
-    PositionWork longest{0, 0};
+    double longest_operator = 0, longest_newton = 0;
     for (const PositionStart& start : generation) {
       const auto& state = solution.states[start.position];
       const auto in_contact = std::ranges::count_if(state.traction, [](const Vec<3>& t) { return t[0] < 0; });
@@ -79,10 +90,11 @@ std::vector<PartWork> contacts(const RollingProblem<3>& problem, const RollingSo
                                                 state.newton_iterations, static_cast<int>(in_contact));
       operators.flops += one.operators;
       newton.flops += one.newton;
-      longest = {std::max(longest.operators, one.operators), std::max(longest.newton, one.newton)};
+      longest_operator = std::max(longest_operator, one.longest_operator);
+      longest_newton = std::max(longest_newton, one.newton);
     }
-    operators.longest_chain += longest.operators;
-    newton.longest_chain += longest.newton;
+    operators.longest_chain += longest_operator;
+    newton.longest_chain += longest_newton;
   }
   return {operators, newton};
 }
@@ -107,7 +119,7 @@ std::vector<PartWork> shape_work(const RollingProblem<3>& problem, const Rolling
   parts.push_back({of_factors, "sector's factor", sector.factor_flops(), sector.longest_chain_flops()});
   if (ring.n_interface_of_harmonics() < ring.n_boundary() - ring.n_outer())
     parts.push_back(strong_modes(ring, interface));
-  parts.push_back(harmonics.work(of_factors, "factors of the harmonics", cube(interface + outer) / 3));
+  parts.push_back(harmonics.factors());
   parts.push_back({of_contact_operator, "compliance of the surface", solution.surface->flops(),
                    solution.surface->longest_chain_flops()});
   std::ranges::copy(contacts(problem, solution), std::back_inserter(parts));

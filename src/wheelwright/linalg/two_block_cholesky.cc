@@ -3,6 +3,8 @@
 #include <cblas.h>
 #include <lapacke.h>
 
+#include "wheelwright/base/parallel.h"
+
 namespace wheelwright {
 namespace {
 
@@ -67,14 +69,15 @@ std::optional<TwoBlockCholesky<Scalar>> TwoBlockCholesky<Scalar>::factor(PackedL
     if (own->end() == a.size()) continue;
     solve_triangle(CblasRight, true, a.size() - own->end(), n, diagonal, own->stride, diagonal + n,
                    own->stride);
-    for (auto later = own + 1; later != panels.end(); ++later) {
+    parallel_for(static_cast<int>(panels.end() - own) - 1, [&](int k) {
+      const auto later = own + 1 + k;
       const Scalar* factors = &a(later->first, own->first);
       const int columns = later->n_columns, below = a.size() - later->end();
       subtract_square(columns, n, factors, own->stride, &a(later->first, later->first), later->stride);
       if (below > 0)
         subtract_product(false, true, below, columns, n, factors + columns, own->stride, factors, own->stride,
                          &a(later->end(), later->first), later->stride);
-    }
+    });
   }
   return TwoBlockCholesky(std::move(a));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/base/parallel.h"
 #include "wheelwright/base/periodic.h"
 #include "wheelwright/mechanics/state/axle_height.h"
 
@@ -60,18 +61,18 @@ class Flexibility {
     const int n_zone = at_.zone.n_columns, n_column = at_.per_column() * components_,
               n_seam = tread_.n_seam();
     auto seams = Matrix::unfilled((n_zone + 1) * n_seam, n_zone * n_column);
-    for (int from = 0; from < n_zone; ++from) {
+    parallel_for(n_zone, [&](int from) {
       const Matrix of_column = seams_of_column(from);
       std::copy(of_column.entries().begin(), of_column.entries().end(), seams.column(from * n_column));
-    }
+    });
     auto result = Matrix::unfilled(n_zone * n_column, n_zone * n_column);
-    for (int to = 0; to < n_zone; ++to) {
+    parallel_for(n_zone, [&](int to) {
       multiply_rows(-1, in_contact_frames(tread_.samples(), to), seams, to * n_seam, 0, result,
                     to * n_column);
       const Matrix compliance = column_compliance(to);
       for (int j = 0; j < n_column; ++j)
         for (int i = 0; i < n_column; ++i) result(to * n_column + i, to * n_column + j) -= compliance(i, j);
-    }
+    });
     return result;
   }
 
