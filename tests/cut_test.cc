@@ -354,6 +354,44 @@ TEST(RandomCells, MirrorImagesHaveTheMirrorImagesOfThePoints) { expect_mirror_sy
 
 TEST(RandomCells, MirrorImagesIn3DHaveTheMirrorImagesOfThePoints) { expect_mirror_symmetry<3>(2, 2); }
 
+// As the cells of bodies of revolution and of extruded wheels: their points are their own images along the
+// axis, and their measures those of the plane.
+TEST(RandomCells, ThatDoNotChangeAlongAnAxisArePrismsOfThePlanesCells) {
+  for (size_t kind = 0; kind < testing::Cells<2>::names.size(); ++kind) {
+    testing::Cells<2> cells(700 + static_cast<unsigned>(kind));
+    for (int i = 0; i < 40; ++i) {
+      const auto section = cells.draw(static_cast<int>(kind));
+      const CellQuadrature<2> in_plane(section.degree, 3);
+      if (in_plane.classify(section.values) != CellKind::cut) continue;
+      const auto expected = in_plane.split(0, section.values);
+      if (!expected) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> values;
+        for (int a = 0; a < power(section.degree + 1, 3); ++a) {
+          const auto node = local_node_position<3>(section.degree, a);
+          const int first = node[axis == 0 ? 1 : 0], second = node[axis == 2 ? 1 : 2];
+          values.push_back(section.values[first + second * (section.degree + 1)]);
+        }
+        const auto cell = CellQuadrature<3>(section.degree, 3).split(0, values);
+        ASSERT_TRUE(cell) << ::testing::PrintToString(values);
+        const auto measure = [](const auto& points) {
+          double sum = 0;
+          for (const auto& q : points) sum += q.weight;
+          return sum;
+        };
+        EXPECT_NEAR(measure(cell->material), measure(expected->material), 1e-14);
+        EXPECT_NEAR(measure(cell->boundary), measure(expected->boundary), 1e-13);
+        const double of_points = asymmetry<3>(cell->material, cell->material, axis,
+                                              [](const auto&) { return Vec<3>{}; }),
+                     of_boundary = asymmetry<3>(cell->boundary, cell->boundary, axis,
+                                                [](const auto&q) { return q.normal; });
+        EXPECT_LT(std::max(of_points, of_boundary), 1e-14) << ::testing::PrintToString(values);
+        for (const auto& q : cell->boundary) EXPECT_NEAR(q.normal[axis], 0, 1e-15);
+      }
+    }
+  }
+}
+
 /// By how much the quadrature of random cells misses the divergence theorem, `n` of each kind, from the
 /// largest; by infinity if it is refused.
 template <int dim>

@@ -92,6 +92,47 @@ void reflect(CutCell<dim>& cell, const Reflection<dim>& reflection) {
   }
 }
 
+/// The nodal values on the face of a cell at an end, 0 or 1, of an axis.
+template <int dim>
+std::vector<double> on_face(int degree, std::span<const double> nodal_values, int axis, int end) {
+  std::vector<double> values;
+  for (int a = 0; a < static_cast<int>(nodal_values.size()); ++a)
+    if (local_node_position<dim>(degree, a)[axis] == end * degree) values.push_back(nodal_values[a]);
+  return values;
+}
+
+/// An axis along which a cell's nodal values do not change at all, that about the axle first.
+std::optional<int> unchanged_axis(int degree, std::span<const double> nodal_values) {
+  for (const int axis : {1, 2, 0}) {
+    const int stride = power(degree + 1, axis);
+    bool changes = false;
+    for (int a = 0; a < static_cast<int>(nodal_values.size()); ++a) {
+      const int first = a - local_node_position<3>(degree, a)[axis] * stride;
+      changes = changes || nodal_values[a] != nodal_values[first];
+    }
+    if (!changes) return axis;
+  }
+  return {};
+}
+
+/// The quadrature of a prism from that of its section, with Gauss points along its axis.
+CutCell<3> prism(const CutCell<2>& section, int axis, const GaussRule& along) {
+  const auto in_space = [axis](const Vec<2>& of_section, double of_axis) {
+    Vec<3> result{};
+    for (int d = 0, k = 0; d < 3; ++d) result[d] = d == axis ? of_axis : of_section[k++];
+    return result;
+  };
+  CutCell<3> result{section.cell, {}, {}, {}};
+  for (std::size_t k = 0; k < along.points.size(); ++k) {
+    const double place = along.points[k], weight = along.weights[k];
+    for (const auto& q : section.material)
+      result.material.push_back({in_space(q.xi, place), weight * q.weight});
+    for (const auto& q : section.boundary)
+      result.boundary.push_back({in_space(q.xi, place), in_space(q.normal, 0), weight * q.weight});
+  }
+  return result;
+}
+
 /// The tolerance of the divergence theorem: far above the error of the rule on a smooth piece.
 double largest_defect(int points) { return 1e-3 + std::min(0.1, 1000 * std::pow(25.0, -points)); }
 
@@ -145,10 +186,10 @@ CellKind CellQuadrature<dim>::classify(std::span<const double> nodal_values) con
 template <int dim>
 std::optional<CutCell<dim>> CellQuadrature<dim>::split(int cell, std::span<const double> nodal_values) const {
   const auto reflection = to_standard<dim>(degree_, nodal_values);
-  const BernsteinForm<dim> psi(degree_, reflected<dim>(degree_, nodal_values, reflection));
-  if (!std::isfinite(psi.variation(0))) return {};
+  const auto standard = reflected<dim>(degree_, nodal_values, reflection);
+  if (!std::isfinite(BernsteinForm<dim>(degree_, standard).variation(0))) return {};
   CutCell<dim> result{cell, {}, {}, {}};
-  append(psi, result);
+  append(standard, result);
   reflect<dim>(result, reflection);
   if (!(divergence_defect(result, nodal_values) <= largest_defect(static_cast<int>(rule_.points.size()))))
     return {};
@@ -178,14 +219,13 @@ double CellQuadrature<dim>::divergence_defect(const CutCell<dim>& cell,
 
 template <int dim>
 double CellQuadrature<dim>::face_measure(std::span<const double> nodal_values, int axis, int end) const {
-  std::vector<double> values;
-  for (int a = 0; a < static_cast<int>(nodal_values.size()); ++a)
-    if (local_node_position<dim>(degree_, a)[axis] == end * degree_) values.push_back(nodal_values[a]);
-  return FaceMeasure<dim - 1>{degree_, static_cast<int>(rule_.points.size())}(values);
+  return FaceMeasure<dim - 1>{
+      degree_, static_cast<int>(rule_.points.size())}(on_face<dim>(degree_, nodal_values, axis, end));
 }
 
 template <>
-void CellQuadrature<2>::append(const BernsteinForm<2>& psi, CutCell<2>& result) const {
+void CellQuadrature<2>::append(std::span<const double> nodal_values, CutCell<2>& result) const {
+  const BernsteinForm<2> psi(degree_, nodal_values);
   const auto axes = by_variation<2>(psi);
   int height = axes[0];
   Columns columns(slice(psi, 1 - height));
@@ -214,7 +254,15 @@ void CellQuadrature<2>::append(const BernsteinForm<2>& psi, CutCell<2>& result) 
 }
 
 template <>
-void CellQuadrature<3>::append(const BernsteinForm<3>& psi, CutCell<3>& result) const {
+void CellQuadrature<3>::append(std::span<const double> nodal_values, CutCell<3>& result) const {
+  if (const auto axis = unchanged_axis(degree_, nodal_values)) {
+    CutCell<2> section{result.cell, {}, {}, {}};
+    const int points = static_cast<int>(rule_.points.size());
+    CellQuadrature<2>(degree_, points).append(on_face<3>(degree_, nodal_values, *axis, 0), section);
+    result = prism(section, *axis, rule_);
+    return;
+  }
+  const BernsteinForm<3> psi(degree_, nodal_values);
   const auto axes = by_variation<3>(psi);
   const Slabs slabs(psi, {axes[1], axes[0], axes[2]});
   result.material = slabs.material(rule_);

@@ -8,9 +8,12 @@
 
 namespace wheelwright {
 
-/// Splits unit cells along the zero set of their polynomial level set.
+/// Splits unit cells along the zero set of their polynomial level set. In 3D, cells along one axis of which
+/// it does not change, as in bodies of revolution and extruded ones, are prisms of the plane's cells.
 template <int dim>
 class CellQuadrature {
+  friend class CellQuadrature<3>;
+
  public:
   /// `points` Gauss points a direction on every smooth piece; in 2D two more along the bases of a cell's
   /// columns, where integrands are not polynomials. `degree`: 1 or 2, that of the level set.
@@ -34,7 +37,7 @@ class CellQuadrature {
  private:
   /// Measure of the material on the face at an end, 0 or 1, of an axis.
   double face_measure(std::span<const double> nodal_values, int axis, int end) const;
-  void append(const BernsteinForm<dim>& psi, CutCell<dim>& result) const;
+  void append(std::span<const double> nodal_values, CutCell<dim>& result) const;
 
   int degree_;
   GaussRule rule_;
