@@ -22,11 +22,17 @@ struct Harmonics {
         n_complex(ring.is_mirror_symmetric() ? 0 : (ring.n_sectors() - 1) / 2),
         parts(ring.is_symmetric_across_width() ? 2 : 1),
         interface(double(ring.n_interface_of_harmonics()) / parts),
-        outer(double(ring.n_outer()) / parts) {}
+        outer(double(ring.n_outer()) / parts),
+        section(ring.harmonic_factor(0).of_section()) {}
 
   /// The factors of all harmonics, of which a complex one takes four times a real one, and of one harmonic
   /// the panels: what is below a panel, and then the longest of the updates, which the threads share.
   PartWork factors() const {
+    if (section) {
+      const PartialCholesky& first = section->first();
+      return {of_factors, "factors of the sections", n * (first.factor_flops() + cube(outer) / 3),
+              first.longest_chain_flops() + cube(outer) / 3};
+    }
     const double size = interface + outer, real = cube(size) / 3;
     double chain = 0;
     const PackedLower<double> stiffness(static_cast<int>(size), static_cast<int>(interface));
@@ -43,7 +49,14 @@ struct Harmonics {
     return {phase, part, parts * real * per_vector * n, parts * real * per_vector};
   }
 
+  /// The entries of a factor that the interface's part of a vector meets.
+  double interface_entries() const {
+    return section ? section->first().sweep_entries(section->first().full_sweep())
+                   : square(interface) / 2 + interface * outer;
+  }
+
   double n, n_complex, parts, interface, outer;
+  const SparseTwoBlockCholesky* section;  ///< one of the harmonics' factors if they are sparse
 };
 
 /// Of InterfaceModes: the ring's interface on the basis of its link's factor, its strong modes and the rest
@@ -113,19 +126,19 @@ std::vector<PartWork> shape_work(const RollingProblem<3>& problem, const Rolling
   const Harmonics harmonics(ring);
   const double positions = solution.positions.size(), modes = solution.displacement.modes.rows(),
                cases = positions * ring.n_sectors(), entries = sector.sweep_entries(solution.sweep);
-  const double interface = harmonics.interface, outer = harmonics.outer;
+  const double outer = harmonics.outer;
 
   std::vector<PartWork> parts;
   parts.push_back({of_factors, "sector's factor", sector.factor_flops(), sector.longest_chain_flops()});
   if (ring.n_interface_of_harmonics() < ring.n_boundary() - ring.n_outer())
-    parts.push_back(strong_modes(ring, interface));
+    parts.push_back(strong_modes(ring, harmonics.interface));
   parts.push_back(harmonics.factors());
   parts.push_back({of_contact_operator, "compliance of the surface", solution.surface->flops(),
                    solution.surface->longest_chain_flops()});
   std::ranges::copy(contacts(problem, solution), std::back_inserter(parts));
 
   const double on_outer = 2 * square(outer) * positions,
-               on_interface = (square(interface) + 2 * interface * outer) * positions;
+               on_interface = 2 * harmonics.interface_entries() * positions;
   parts.push_back(
       harmonics.work_on_vectors(of_positions, "boundary of the sectors", on_outer + on_interface));
   const double basis = 4 * cases * sector.n_trailing() * modes;  // column_basis()

@@ -10,6 +10,7 @@
 #include "wheelwright/linalg/cyclic_chain.h"
 #include "wheelwright/linalg/lu_factor.h"
 #include "wheelwright/linalg/partial_cholesky.h"
+#include "wheelwright/linalg/sparse_two_block_cholesky.h"
 #include "wheelwright/linalg/two_block_cholesky.h"
 
 namespace wheelwright {
@@ -98,6 +99,51 @@ TEST_F(CondensedSquare, SolvesAsADenseCholesky) {
   cholesky_solve(dense, expected);
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < n * n; ++k) EXPECT_NEAR(x(i, k), expected(order_[k], i), 1e-13);
+}
+
+TEST_F(CondensedSquare, SolvesByTwoBlocksAsADenseCholesky) {
+  SparseSymmetric in_order{.size = n * n, .column_start = {0}, .rows = {}, .values = {}};
+  for (int j = 0; j < n * n; ++j) {
+    for (int i = j; i < n * n; ++i)
+      if (const double value = laplacian_.dense(order_[i], order_[j]); value != 0) {
+        in_order.rows.push_back(i);
+        in_order.values.push_back(value);
+      }
+    in_order.column_start.push_back(static_cast<int>(in_order.rows.size()));
+  }
+  std::vector<int> identity(n * n);
+  std::iota(identity.begin(), identity.end(), 0);
+  const auto analysis = PartialCholesky::analyze(in_order, 1, identity, n);
+  ASSERT_TRUE(analysis);
+  const Matrix root = random_matrix(n, n, 2), on_last = product(root, Op::none, root, Op::transpose);
+  PackedLower<double> packed(n * n, n * n - n);
+  for (int j = 0; j < n * n; ++j)
+    for (int i = j; i < n * n; ++i) {
+      packed(i, j) = laplacian_.dense(order_[i], order_[j]);
+      if (j >= n * n - n) packed(i, j) += on_last(i - (n * n - n), j - (n * n - n));
+    }
+  const auto sparse = SparseTwoBlockCholesky::factor(in_order, on_last, *analysis);
+  const auto dense = TwoBlockCholesky<double>::factor(packed);
+  ASSERT_TRUE(sparse && dense);
+  ASSERT_EQ(sparse->n_first(), dense->n_first());
+  const Matrix loads = random_matrix(n * n, 3, 3);
+  const auto solve = [&](const auto& factor) {
+    Matrix x = loads;
+    factor.eliminate(x);
+    Matrix last = block(x, n * n - n, 0, n, 3);
+    factor.solve_last(last);
+    for (int j = 0; j < 3; ++j) std::copy_n(last.column(j), n, x.column(j) + n * n - n);
+    factor.substitute(x);
+    return x;
+  };
+  const Matrix x = solve(*sparse), expected = solve(*dense);
+  for (size_t k = 0; k < x.entries().size(); ++k) EXPECT_NEAR(x.entries()[k], expected.entries()[k], 1e-13);
+  const Matrix inverse = sparse->last_inverse(), inverse_expected = dense->last_inverse();
+  for (size_t k = 0; k < inverse.entries().size(); ++k)
+    EXPECT_NEAR(inverse.entries()[k], inverse_expected.entries()[k], 1e-13);
+  Matrix indefinite = on_last;
+  indefinite(0, 0) -= 1e3;
+  EXPECT_FALSE(SparseTwoBlockCholesky::factor(in_order, indefinite, *analysis));
 }
 
 /// The longest chain of a matrix of diagonal 3 with `couplings`, as a share of its flops.

@@ -389,12 +389,6 @@ std::vector<Groove> grooves(const Case& c) {
   return result;
 }
 
-int sectors_of_turned_wheel(const Case& c) {
-  int cells = 3;
-  while (c.grid.angular_cells % cells != 0) ++cells;
-  return c.grid.angular_cells / cells;
-}
-
 Invariance invariance(const Case& c) {
   switch (c.optimizer.made) {
     case Manufacture::extruded:

@@ -171,8 +171,6 @@ std::vector<Groove> grooves(const Case& c);
 double largest_depth(const HoleGroove& groove);
 /// The radius of the largest fillet that a groove has room for [m].
 double largest_fillet(const HoleGroove& groove);
-/// Sectors of at least three cells around the wheel, with which a body of revolution is solved fastest.
-int sectors_of_turned_wheel(const Case& c);
 /// What the way of making the wheel asks of its shapes.
 Invariance invariance(const Case& c);
 

@@ -242,7 +242,7 @@ std::vector<Key<Optimizer>> manufacture_keys() {
        .field = choice<&Optimizer::made>({manufacture_words.begin(), manufacture_words.end()}),
        .meaning =
            "in 3D, what every shape of a run is. extruded: the same all along the axle; turned: a body of "
-           "revolution, by default in sectors of a few cells and, without losses and fatigue, with one load "
+           "revolution, by default in sectors of one cell and, without losses and fatigue, with one load "
            "position; moulded: without undercuts in a mould of two halves that open along the axle; printed: "
            "layer by layer along the axle, without support and without closed cavities"},
       {.name = "parting_plane",

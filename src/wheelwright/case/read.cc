@@ -736,7 +736,8 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
     if (!is_given(key_of(&Contact::gamma_0))) result.contact.gamma_0 = gamma_0_of_large_strains;
   }
   if (result.optimizer.made == Manufacture::turned) {
-    if (!is_given(key_of(&Wheel::sectors))) result.wheel.sectors = sectors_of_turned_wheel(result);
+    // Of one column of cells each, with which a body of revolution is solved fastest (SectionStiffness).
+    if (!is_given(key_of(&Wheel::sectors))) result.wheel.sectors = result.grid.angular_cells;
     if (!is_given(key_of(&Load::positions)) && !needs_history(result)) result.load.positions = 1;
   }
   if (syntax.empty()) check_conflicts(reading, result);

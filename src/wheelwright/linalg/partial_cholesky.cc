@@ -87,20 +87,32 @@ void for_blocks(int size, const std::function<void(int, int)>& f) {
   });
 }
 
+/// x = x op(l)^-1 for the n rows of x, of which few are solved one by one: dtrsm copies the triangle first.
+void solve_rows(CBLAS_TRANSPOSE op, int n, int n_columns, const double* l, int stride, double* x,
+                int leading) {
+  constexpr int few = 4;
+  if (n > few) {
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, op, CblasNonUnit, n, n_columns, 1, l, stride, x,
+                leading);
+    return;
+  }
+  for (int i = 0; i < n; ++i)
+    cblas_dtrsv(CblasColMajor, CblasLower, op == CblasTrans ? CblasNoTrans : CblasTrans, CblasNonUnit,
+                n_columns, l, stride, x + i, leading);
+}
+
 }  // namespace
 
-Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix, int block,
-                                                   std::span<const int> order, int n_trailing) {
+Expected<std::shared_ptr<const PartialCholesky::Analysis>> PartialCholesky::analyze(
+    const SparseSymmetric& matrix, int block, std::span<const int> order, int n_trailing) {
   const SymbolicFactor symbolic(matrix, block, order);
   if (symbolic.lacked_memory()) throw std::bad_alloc();
   if (!symbolic.kept_order())
     return Failure{FailureReason::not_positive_definite, "CHOLMOD did not keep the elimination order"};
   const int n_interior = static_cast<int>(order.size()) - n_trailing;
-  PartialCholesky result;
-  result.supernode_of_.assign(matrix.size, -1);
-  result.n_trailing_ = block * n_trailing;
-  result.schur_ = Matrix(block * n_trailing, block * n_trailing);
-  size_t n_values = 0;
+  auto result = std::make_shared<Analysis>();
+  result->supernode_of_.assign(matrix.size, -1);
+  result->n_trailing_ = block * n_trailing;
   for (int s = 0; s < symbolic.n_supernodes() && symbolic.first(s) < n_interior; ++s) {
     const auto rows = symbolic.rows(s);
     const auto below = std::upper_bound(
@@ -109,36 +121,49 @@ Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix
     const Supernode node{.first = block * symbolic.first(s),
                          .n_columns = block * static_cast<int>(below - rows.begin()),
                          .n_below = block * static_cast<int>(rows.end() - below),
-                         .below = result.below_.size(),
-                         .values = n_values,
+                         .below = result->below_.size(),
+                         .values = result->n_values_,
                          .parent = -1};
     for (auto row = below; row != rows.end(); ++row)
-      for (int c = 0; c < block; ++c) result.below_.push_back(block * *row + c);
-    n_values += size_t(node.stride()) * node.n_columns;
-    std::fill_n(result.supernode_of_.begin() + node.first, node.n_columns, s);
-    result.supernodes_.push_back(node);
+      for (int c = 0; c < block; ++c) result->below_.push_back(block * *row + c);
+    result->n_values_ += size_t(node.stride()) * node.n_columns;
+    std::fill_n(result->supernode_of_.begin() + node.first, node.n_columns, s);
+    result->supernodes_.push_back(node);
   }
-  result.values_.assign(n_values, 0.0);
-  for (Supernode& node : result.supernodes_)
-    if (node.n_below > 0) node.parent = result.supernode_of_[result.below_[node.below]];
-  return result;
+  for (Supernode& node : result->supernodes_)
+    if (node.n_below > 0) node.parent = result->supernode_of_[result->below_[node.below]];
+  result->place_.resize(matrix.size);
+  for (size_t k = 0; k < order.size(); ++k)
+    for (int c = 0; c < block; ++c) result->place_[block * order[k] + c] = block * static_cast<int>(k) + c;
+  return std::shared_ptr<const Analysis>(std::move(result));
+}
+
+PartialCholesky::PartialCholesky(std::shared_ptr<const Analysis> analysis) : analysis_(std::move(analysis)) {}
+
+PartialCholesky PartialCholesky::without_interior(int n_trailing) {
+  auto analysis = std::make_shared<Analysis>();
+  analysis->supernode_of_.assign(n_trailing, -1);
+  analysis->n_trailing_ = n_trailing;
+  return PartialCholesky(std::move(analysis));
 }
 
 /// The numerical factorization: fills values_ and schur_.
 class PartialCholesky::Numbers {
  public:
-  Numbers(PartialCholesky& factor, const SparseSymmetric& matrix, int block, std::span<const int> order)
+  Numbers(PartialCholesky& factor, const SparseSymmetric& matrix)
       : factor_(factor),
-        children_(factor.supernodes_.size()),
-        work_(factor.supernodes_.size()),
-        updates_(factor.supernodes_.size()) {
+        children_(factor.supernodes().size()),
+        work_(factor.supernodes().size()),
+        updates_(factor.supernodes().size()) {
+    factor.values_.assign(factor.analysis_->n_values_, 0.0);
+    factor.schur_ = Matrix(factor.n_trailing(), factor.n_trailing());
     for (size_t s = 0; s < children_.size(); ++s) {
-      const Supernode& node = factor.supernodes_[s];
+      const Supernode& node = factor.supernodes()[s];
       work_[s] += node.work();
       (node.parent < 0 ? roots_ : children_[node.parent]).push_back(static_cast<int>(s));
       (node.parent < 0 ? total_work_ : work_[node.parent]) += work_[s];
     }
-    sort_entries(matrix, block, order);
+    sort_entries(matrix);
   }
 
   /// False when a supernode is not positive definite.
@@ -151,7 +176,7 @@ class PartialCholesky::Numbers {
       for (int k = column_start_[j]; k < column_start_[j + 1]; ++k)
         schur(entries_[k].row - first, j - first) += entries_[k].value;
     for (size_t s = 0; s < updates_.size(); ++s) {
-      const Supernode& node = factor_.supernodes_[s];
+      const Supernode& node = factor_.supernodes()[s];
       if (node.parent >= 0) continue;
       const int* rows = factor_.rows_below(node);
       for (int j = 0; j < node.n_below; ++j)
@@ -168,10 +193,14 @@ class PartialCholesky::Numbers {
   };
 
   /// Sorts the lower triangle of the matrix into columns in elimination order.
-  void sort_entries(const SparseSymmetric& matrix, int block, std::span<const int> order) {
-    std::vector<int> place(matrix.size);
-    for (size_t k = 0; k < order.size(); ++k)
-      for (int c = 0; c < block; ++c) place[block * order[k] + c] = block * static_cast<int>(k) + c;
+  void sort_entries(const SparseSymmetric& matrix) {
+    const std::vector<int>& place = factor_.analysis_->place_;
+    if (std::ranges::is_sorted(place)) {
+      column_start_ = matrix.column_start;
+      entries_.reserve(matrix.rows.size());
+      for (size_t k = 0; k < matrix.rows.size(); ++k) entries_.push_back({matrix.rows[k], matrix.values[k]});
+      return;
+    }
     column_start_.assign(matrix.size + 1, 0);
     for (int j = 0; j < matrix.size; ++j)
       for (int k = matrix.column_start[j]; k < matrix.column_start[j + 1]; ++k)
@@ -206,7 +235,7 @@ class PartialCholesky::Numbers {
 
   /// `place` is work space with one entry per unknown.
   bool eliminate(int s, std::vector<int>& place) {
-    const Supernode& node = factor_.supernodes_[s];
+    const Supernode& node = factor_.supernodes()[s];
     const int stride = node.stride(), n = node.n_columns, m = node.n_below;
     const int* below = factor_.rows_below(node);
     double* l = &factor_.values_[node.values];
@@ -218,8 +247,8 @@ class PartialCholesky::Numbers {
       for (int k = column_start_[node.first + j]; k < column_start_[node.first + j + 1]; ++k)
         l[size_t(j) * stride + place[entries_[k].row]] += entries_[k].value;
     for (const int child : children_[s]) {
-      const int n_rows = factor_.supernodes_[child].n_below;
-      const int* rows = factor_.rows_below(factor_.supernodes_[child]);
+      const int n_rows = factor_.supernodes()[child].n_below;
+      const int* rows = factor_.rows_below(factor_.supernodes()[child]);
       for (int j = 0; j < n_rows; ++j) {
         const int column = place[rows[j]];
         double* to = column < n ? l + size_t(column) * stride : update.column(column - n) - n;
@@ -249,14 +278,20 @@ class PartialCholesky::Numbers {
 
 Expected<PartialCholesky> PartialCholesky::factor(const SparseSymmetric& matrix, int block,
                                                   std::span<const int> order, int n_trailing) {
-  auto factor = analyze(matrix, block, order, n_trailing);
-  if (!factor) return factor;
-  Numbers numbers(*factor, matrix, block, order);
+  auto analysis = analyze(matrix, block, order, n_trailing);
+  if (!analysis) return analysis.failure();
+  return factor(matrix, *std::move(analysis));
+}
+
+Expected<PartialCholesky> PartialCholesky::factor(const SparseSymmetric& matrix,
+                                                  std::shared_ptr<const Analysis> analysis) {
+  PartialCholesky factor(std::move(analysis));
+  Numbers numbers(factor, matrix);
   if (!numbers.eliminate())
     return Failure{FailureReason::not_positive_definite,
                    "the stiffness of a sector is not positive definite"};
   numbers.finish_schur();
-  for (double x : factor->schur_.entries())
+  for (double x : factor.schur_.entries())
     if (!std::isfinite(x)) return Failure{FailureReason::not_finite, "the condensed stiffness is not finite"};
   return factor;
 }
@@ -268,16 +303,16 @@ double PartialCholesky::Supernode::flops() const {
 
 double PartialCholesky::factor_flops() const {
   double flops = 0;
-  for (const Supernode& node : supernodes_) flops += node.flops();
+  for (const Supernode& node : supernodes()) flops += node.flops();
   return flops;
 }
 
 double PartialCholesky::longest_chain_flops() const {
-  const size_t n = supernodes_.size();
+  const size_t n = supernodes().size();
   std::vector<double> work(n), flops(n), chain(n);  // of subtrees; of the chains below their roots
   double total_work = 0, longest = 0;
   for (size_t s = 0; s < n; ++s) {
-    const Supernode& node = supernodes_[s];
+    const Supernode& node = supernodes()[s];
     work[s] += node.work();
     flops[s] += node.flops();
     if (node.parent >= 0) {
@@ -288,7 +323,7 @@ double PartialCholesky::longest_chain_flops() const {
     }
   }
   for (size_t s = 0; s < n; ++s) {
-    const Supernode& node = supernodes_[s];
+    const Supernode& node = supernodes()[s];
     chain[s] = work[s] < worth_sharing * total_work ? flops[s] : chain[s] + node.flops();
     double& above = node.parent >= 0 ? chain[node.parent] : longest;
     above = std::max(above, chain[s]);
@@ -297,14 +332,14 @@ double PartialCholesky::longest_chain_flops() const {
 }
 
 PartialCholesky::Sweep PartialCholesky::sweep_through(const std::vector<char>& marked) const {
-  std::vector<char> needed(supernodes_.size(), 0);
+  std::vector<char> needed(supernodes().size(), 0);
   for (int i = 0; i < n_interior(); ++i)
-    if (marked[i]) needed[supernode_of_[i]] = 1;
+    if (marked[i]) needed[analysis_->supernode_of_[i]] = 1;
   Sweep sweep{{}, std::vector<char>(size(), 0)};
   std::fill(sweep.visited.begin() + n_interior(), sweep.visited.end(), 1);
-  for (size_t s = 0; s < supernodes_.size(); ++s) {
+  for (size_t s = 0; s < supernodes().size(); ++s) {
     if (!needed[s]) continue;
-    const Supernode& node = supernodes_[s];
+    const Supernode& node = supernodes()[s];
     sweep.supernodes.push_back(static_cast<int>(s));
     std::fill_n(sweep.visited.begin() + node.first, node.n_columns, 1);
     if (node.parent >= 0) needed[node.parent] = 1;
@@ -319,7 +354,8 @@ PartialCholesky::Sweep PartialCholesky::full_sweep() const {
 double PartialCholesky::sweep_entries(const Sweep& sweep) const {
   double entries = 0;
   for (const int s : sweep.supernodes)
-    entries += double(supernodes_[s].n_columns) * (supernodes_[s].n_below + 0.5 * supernodes_[s].n_columns);
+    entries +=
+        double(supernodes()[s].n_columns) * (supernodes()[s].n_below + 0.5 * supernodes()[s].n_columns);
   return entries;
 }
 
@@ -328,12 +364,11 @@ void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
   for_blocks(leading, [&](int first, int n) {
     std::vector<double> passed_on;
     for (const int s : sweep.supernodes) {
-      const Supernode& node = supernodes_[s];
+      const Supernode& node = supernodes()[s];
       const int stride = node.stride(), *below = rows_below(node);
       const double* l = columns(node);
       double* own = loads.column(node.first) + first;
-      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, node.n_columns, 1, l,
-                  stride, own, leading);
+      solve_rows(CblasTrans, n, node.n_columns, l, stride, own, leading);
       if (node.n_below == 0) continue;
       passed_on.resize(size_t(n) * node.n_below);
       cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n, node.n_below, node.n_columns, 1, own, leading,
@@ -352,7 +387,7 @@ void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
   for_blocks(leading, [&](int first, int n) {
     std::vector<double> known;
     for (auto s = sweep.supernodes.rbegin(); s != sweep.supernodes.rend(); ++s) {
-      const Supernode& node = supernodes_[*s];
+      const Supernode& node = supernodes()[*s];
       const int stride = node.stride(), *below = rows_below(node);
       const double* l = columns(node);
       double* own = x.column(node.first) + first;
@@ -362,8 +397,7 @@ void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
       if (node.n_below > 0)
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, node.n_columns, node.n_below, -1,
                     known.data(), n, l + node.n_columns, stride, 1, own, leading);
-      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, n, node.n_columns, 1, l,
-                  stride, own, leading);
+      solve_rows(CblasNoTrans, n, node.n_columns, l, stride, own, leading);
     }
   });
 }

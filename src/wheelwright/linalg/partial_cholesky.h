@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,8 +27,19 @@ class PartialCholesky {
   static Expected<PartialCholesky> factor(const SparseSymmetric& matrix, int block,
                                           std::span<const int> order, int n_trailing);
 
-  int size() const { return static_cast<int>(supernode_of_.size()); }
-  int n_trailing() const { return n_trailing_; }
+  /// The symbolic analysis, which matrices of one pattern share.
+  class Analysis;
+  static Expected<std::shared_ptr<const Analysis>> analyze(const SparseSymmetric& matrix, int block,
+                                                           std::span<const int> order, int n_trailing);
+  /// The same as above; the pattern of `matrix` must be the analyzed one.
+  static Expected<PartialCholesky> factor(const SparseSymmetric& matrix,
+                                          std::shared_ptr<const Analysis> analysis);
+
+  /// Without interior unknowns, and without schur(), which is then the matrix itself.
+  static PartialCholesky without_interior(int n_trailing);
+
+  int size() const;
+  int n_trailing() const;
   int n_interior() const { return size() - n_trailing(); }
   const Matrix& schur() const { return schur_; }  ///< both triangles; empty once it is released
   Matrix release_schur() { return std::exchange(schur_, {}); }
@@ -71,21 +83,36 @@ class PartialCholesky {
   };
   class Numbers;
 
-  PartialCholesky() = default;
+  explicit PartialCholesky(std::shared_ptr<const Analysis> analysis);
+  const std::vector<Supernode>& supernodes() const;
   /// The unknowns of the rows below the diagonal block of a supernode.
-  const int* rows_below(const Supernode& node) const { return below_.data() + node.below; }
+  const int* rows_below(const Supernode& node) const;
   /// The columns of L of a supernode; their stride is node.stride().
   const double* columns(const Supernode& node) const { return values_.data() + node.values; }
 
-  static Expected<PartialCholesky> analyze(const SparseSymmetric& matrix, int block,
-                                           std::span<const int> order, int n_trailing);
+  std::shared_ptr<const Analysis> analysis_;
+  std::vector<double> values_;
+  Matrix schur_;
+};
+
+class PartialCholesky::Analysis {
+  friend class PartialCholesky;
 
   std::vector<Supernode> supernodes_;  ///< children before parents
   std::vector<int> supernode_of_;      ///< one entry per unknown; -1 for trailing unknowns
   std::vector<int> below_;
-  std::vector<double> values_;
+  std::vector<int> place_;  ///< the elimination index of every unknown of the matrix
+  size_t n_values_ = 0;
   int n_trailing_ = 0;
-  Matrix schur_;
 };
+
+inline int PartialCholesky::size() const { return static_cast<int>(analysis_->supernode_of_.size()); }
+inline int PartialCholesky::n_trailing() const { return analysis_->n_trailing_; }
+inline const std::vector<PartialCholesky::Supernode>& PartialCholesky::supernodes() const {
+  return analysis_->supernodes_;
+}
+inline const int* PartialCholesky::rows_below(const Supernode& node) const {
+  return analysis_->below_.data() + node.below;
+}
 
 }  // namespace wheelwright

@@ -79,6 +79,12 @@ class MirrorBasis {
   template <class Entry, class Set>
   void for_each_entry(Entry entry, Set set) const;
 
+  /// The entry of the coordinates' matrix for two unknowns that are their own images, from that of the
+  /// Hermitian one.
+  double of_own_images(int i, int j, std::complex<double> entry) const {
+    return (std::conj(unknowns_[i].phase) * entry * unknowns_[j].phase).real();
+  }
+
   /// Replaces nodal values of the unknowns first ... end - 1 by their coordinates, and back. They are the
   /// last rows of `x`, and their images are among them.
   void to_coordinates(int first, int end, ComplexMatrix& x) const;
@@ -107,7 +113,7 @@ void MirrorBasis::for_each_entry(Entry entry, Set set) const {
       if (i2 < i || i2 < j) continue;  // an image, or above the diagonal
       const std::complex<double> a = entry(i, j);
       if (i == i2 && j == j2) {
-        set_lower(i, j, (std::conj(c_i) * a * c_j).real());
+        set_lower(i, j, of_own_images(i, j, a));
       } else if (i == i2) {
         const std::complex<double> alpha = root_2 * std::conj(c_i) * a;
         set_lower(i, j, alpha.real());

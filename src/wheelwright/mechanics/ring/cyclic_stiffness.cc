@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "wheelwright/base/parallel.h"
@@ -51,6 +53,22 @@ BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space) {
   return layout;
 }
 
+/// All unknowns that are not on the outer line as those of the interface, line after line along the longer
+/// side of the section, in which order they are eliminated: the section is so narrow that nested dissection
+/// takes more operations.
+template <int dim>
+BoundaryLayout<dim> section_layout(const SectorSpace<dim>& space) {
+  BoundaryLayout<dim> layout;
+  for (int node = 0; node < space.n_nodes(); ++node) {
+    layout.trailing_nodes.push_back(node);
+    const auto& p = space.position(node);
+    if (p[1] < space.last_line() && !is_on_outer_line<dim>(space, p)) layout.interface_nodes.push_back(p);
+  }
+  const int along = dim == 3 && space.grid().cells[dim - 1] > space.core_rows() ? dim - 1 : 0;
+  std::ranges::stable_sort(layout.interface_nodes, {}, [along](const auto& p) { return p[along]; });
+  return layout;
+}
+
 template <class Scalar>
 DenseMatrix<Scalar> stacked(const DenseMatrix<Scalar>& top, const DenseMatrix<Scalar>& bottom) {
   auto result = DenseMatrix<Scalar>::unfilled(top.rows() + bottom.rows(), top.columns());
@@ -71,7 +89,7 @@ InterfaceRoute best_route(const BoundarySymmetry& symmetry, const SectorHarmonic
                                                              : InterfaceRoute::all_unknowns;
 }
 
-std::shared_ptr<const BoundarySymmetry> without_symmetry(int n_interface, int n_outer) {
+std::shared_ptr<BoundarySymmetry> without_symmetry(int n_interface, int n_outer) {
   auto symmetry = std::make_shared<BoundarySymmetry>();
   symmetry->n_interface = n_interface;
   symmetry->classes.emplace_back(n_interface + n_outer, n_interface);
@@ -133,6 +151,8 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
                                                             const OuterStiffness& outer_stiffness,
                                                             const SectorHarmonics& harmonics,
                                                             std::optional<InterfaceRoute> route) {
+  if (route.value_or(InterfaceRoute::section) == InterfaceRoute::section)
+    if (auto of_section = factor_section(sector, outer_stiffness, harmonics)) return *std::move(of_section);
   const BoundaryLayout<dim> layout = boundary_layout(sector.space);
   auto factored = factor_sector(sector, layout);
   if (!factored) return factored.failure();
@@ -160,6 +180,45 @@ Expected<typename CyclicStiffness<dim>::FactoredSector> CyclicStiffness<dim>::fa
   for (int k = 0; k < static_cast<int>(nodes.size()); ++k)
     for (int c = 0; c < dim; ++c) row[dim * nodes[k] + c] = dim * k + c;
   return FactoredSector{*std::move(factor), std::move(row)};
+}
+
+template <int dim>
+std::optional<Expected<CyclicStiffness<dim>>> CyclicStiffness<dim>::factor_section(
+    SectorStiffness<dim>& sector, const OuterStiffness& outer_stiffness, const SectorHarmonics& harmonics) {
+  if (sector.space.grid().cells[1] != 1 || harmonics.n_sectors() < 3) return {};
+  const BoundaryLayout<dim> layout = section_layout(sector.space);
+  Boundary boundary = boundary_of(sector.space, layout);
+  const SectionStiffness section(sector.matrix, boundary.trailing, boundary.azimuth);
+  if (!section.is_mirror_symmetric()) return {};
+  auto symmetry = without_symmetry(boundary.n_interface, boundary.n_outer);
+  symmetry->azimuth = boundary.azimuth;
+
+  std::vector<int> order(boundary.size() / dim);
+  std::iota(order.begin(), order.end(), 0);
+  const auto basis_of = [&](int h) { return MirrorBasis(boundary.azimuth, harmonics.phase(h, 1)); };
+  const auto analysis =
+      PartialCholesky::analyze(section.of_harmonic(basis_of(0), 1.0), dim, order, boundary.n_outer / dim);
+  if (!analysis) return analysis.failure();
+  std::vector<std::optional<HarmonicFactor>> factors(harmonics.n_harmonics());
+  parallel_for(harmonics.n_harmonics(), [&](int h) {
+    const MirrorBasis basis = basis_of(h);
+    const ComplexMatrix on_outer_line = outer_stiffness(h);
+    auto on_last = Matrix::unfilled(boundary.n_outer, boundary.n_outer);
+    for (int j = 0; j < boundary.n_outer; ++j)
+      for (int i = 0; i < boundary.n_outer; ++i)
+        on_last(i, j) =
+            basis.of_own_images(boundary.n_interface + i, boundary.n_interface + j, on_outer_line(i, j));
+    auto factor =
+        SparseTwoBlockCholesky::factor(section.of_harmonic(basis, harmonics.phase(h, 1)), on_last, *analysis);
+    if (factor) factors[h].emplace(symmetry, *std::move(factor), basis);
+  });
+  auto all = all_of(std::move(factors));
+  if (!all) return all.failure();
+  std::vector<int> row(sector.space.n_dofs());
+  std::iota(row.begin(), row.end(), 0);
+  FactoredSector factored{PartialCholesky::without_interior(sector.space.n_dofs()), std::move(row)};
+  return CyclicStiffness(std::move(sector), std::move(factored), harmonics, std::move(boundary),
+                         std::move(symmetry), {}, *std::move(all));
 }
 
 template <int dim>
@@ -238,8 +297,14 @@ Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::factor_harmonics(
     factors[h] = HarmonicFactor::factor(of_harmonics, harmonics.phase(h, 1),
                                         h == 0 || 2 * h == harmonics.n_sectors(), entry);
   });
+  return all_of(std::move(factors));
+}
+
+template <int dim>
+Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::all_of(
+    std::vector<std::optional<HarmonicFactor>> factors) {
   std::vector<HarmonicFactor> result;
-  for (int h = 0; h < harmonics.n_harmonics(); ++h) {
+  for (size_t h = 0; h < factors.size(); ++h) {
     if (!factors[h])
       return Failure{
           FailureReason::not_positive_definite,
@@ -253,10 +318,10 @@ Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::factor_harmonics(
 }
 
 template <int dim>
-CyclicStiffness<dim>::CoupledSectors::CoupledSectors(const std::vector<Trailing>& trailing,
+CyclicStiffness<dim>::CoupledSectors::CoupledSectors(const std::vector<SharedUnknown>& trailing,
                                                      const Matrix& schur, int n_boundary) {
   int farthest = 0;
-  for (const Trailing& t : trailing) farthest = std::max(farthest, t.shift);
+  for (const SharedUnknown& t : trailing) farthest = std::max(farthest, t.shift);
   resize(n_boundary, farthest);
   for (int j = 0; j < schur.columns(); ++j)
     for (int i = 0; i < schur.rows(); ++i)

@@ -8,14 +8,16 @@
 #include "wheelwright/mechanics/ring/harmonic_factor.h"
 #include "wheelwright/mechanics/ring/harmonics.h"
 #include "wheelwright/mechanics/ring/interface_modes.h"
+#include "wheelwright/mechanics/ring/section_stiffness.h"
 
 namespace wheelwright {
 
-/// Which unknowns of the interfaces the harmonics have. Both ways have one result, up to the tolerance of
-/// InterfaceModes.
+/// Which unknowns the harmonics have besides those of the outer line. All ways have one result, up to the
+/// tolerance of InterfaceModes.
 enum class InterfaceRoute {
-  all_unknowns,
-  strong_modes,  ///< also all of them if most modes are strong
+  all_unknowns,  ///< of the interfaces
+  strong_modes,  ///< of the interfaces; also all of them if most modes are strong
+  section,       ///< all of a sector, with a sparse factor: for sectors of one column that are symmetric
 };
 
 /// The boundary nodes of a sector, as all sectors number them, and its interior nodes.
@@ -40,7 +42,8 @@ class CyclicStiffness {
   /// as a tread of equal columns is.
   using OuterStiffness = std::function<ComplexMatrix(int harmonic)>;
 
-  /// By default the route is the one that takes less time. Fails with not_positive_definite or not_finite.
+  /// By default the route is the one that takes the least time. Where a route is impossible, all unknowns of
+  /// the interfaces are taken. Fails with not_positive_definite or not_finite.
   static Expected<CyclicStiffness> factor(SectorStiffness<dim> sector, const OuterStiffness& outer_stiffness,
                                           const SectorHarmonics& harmonics,
                                           std::optional<InterfaceRoute> route = {});
@@ -63,6 +66,8 @@ class CyclicStiffness {
 
   /// The unknowns of the interface that the harmonics have.
   int n_interface_of_harmonics() const { return modes_ ? modes_->n_strong() : n_boundary_ - n_outer_; }
+
+  const HarmonicFactor& harmonic_factor(int harmonic) const { return harmonic_factors_[harmonic]; }
 
   /// Maps loads on a sector's trailing unknowns (one row per load case) to boundary loads of the ring. A node
   /// shared by sectors may carry its load in any of them.
@@ -100,16 +105,12 @@ class CyclicStiffness {
   Matrix trailing_displacements(const Matrix& boundary) const;
 
  private:
-  struct Trailing {
-    int boundary;  ///< index among the boundary unknowns
-    int shift;     ///< sectors ahead
-  };
   /// The condensed stiffness of a sector, split by the number of sectors that the second unknown is ahead of
   /// the first. That for -d is the transpose of that for d, which is kept as symmetric and antisymmetric
   /// parts: lower triangles, column by column.
   class CoupledSectors {
    public:
-    CoupledSectors(const std::vector<Trailing>& trailing, const Matrix& schur, int n_boundary);
+    CoupledSectors(const std::vector<SharedUnknown>& trailing, const Matrix& schur, int n_boundary);
     /// `by_difference`: from -farthest to farthest.
     explicit CoupledSectors(const std::vector<Matrix>& by_difference);
 
@@ -144,7 +145,7 @@ class CyclicStiffness {
   /// The boundary unknowns, and how they are reflected.
   struct Boundary {
     int n_interface, n_outer;
-    std::vector<Trailing> trailing;
+    std::vector<SharedUnknown> trailing;
     BoundaryMirror azimuth;
     std::optional<BoundaryMirror> width;  ///< absent if an unknown has no image across the width
     int size() const { return n_interface + n_outer; }
@@ -158,6 +159,8 @@ class CyclicStiffness {
   };
   static Expected<FactoredSector> factor_sector(const SectorStiffness<dim>& sector,
                                                 const BoundaryLayout<dim>& layout);
+  /// All factors; fails with the first harmonic that has none, because it is not positive definite.
+  static Expected<std::vector<HarmonicFactor>> all_of(std::vector<std::optional<HarmonicFactor>> factors);
   static Boundary boundary_of(const SectorSpace<dim>& space, const BoundaryLayout<dim>& layout);
   static std::shared_ptr<const BoundarySymmetry> symmetry_of(const CoupledSectors& coupled,
                                                              const Boundary& boundary);
@@ -168,6 +171,11 @@ class CyclicStiffness {
                   Boundary boundary, std::shared_ptr<const BoundarySymmetry> symmetry,
                   std::optional<InterfaceModes> modes, std::vector<HarmonicFactor> harmonic_factors);
 
+  /// By InterfaceRoute::section; empty if the sectors are not symmetric.
+  static std::optional<Expected<CyclicStiffness>> factor_section(SectorStiffness<dim>& sector,
+                                                                 const OuterStiffness& outer_stiffness,
+                                                                 const SectorHarmonics& harmonics);
+
   /// The ring's stiffness, with that of the outer line, for every harmonic; it must be positive definite.
   static Expected<std::vector<HarmonicFactor>> factor_harmonics(
       const CoupledSectors& coupled, const std::shared_ptr<const BoundarySymmetry>& of_harmonics,
@@ -177,7 +185,7 @@ class CyclicStiffness {
   PartialCholesky sector_factor_;
   SectorHarmonics harmonics_;
   std::vector<int> row_;
-  std::vector<Trailing> trailing_;
+  std::vector<SharedUnknown> trailing_;
   int n_boundary_, n_outer_;
   std::shared_ptr<const BoundarySymmetry> symmetry_;
   std::optional<InterfaceModes> modes_;  ///< absent if the harmonics have all unknowns

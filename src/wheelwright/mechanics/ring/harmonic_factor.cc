@@ -1,6 +1,7 @@
 #include "wheelwright/mechanics/ring/harmonic_factor.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace wheelwright {
 namespace {
@@ -28,6 +29,12 @@ bool is_zero(const ComplexMatrix& x) {
 
 }  // namespace
 
+HarmonicFactor::HarmonicFactor(std::shared_ptr<const BoundarySymmetry> symmetry,
+                               SparseTwoBlockCholesky factor, MirrorBasis basis)
+    : symmetry_(std::move(symmetry)) {
+  parts_.push_back({std::move(factor), std::move(basis)});
+}
+
 void HarmonicFactor::apply(const Part& part, Step step, int n_interface, ComplexMatrix& x) {
   const auto solve = [&](const auto& factor, auto& values) {
     if (step == Step::eliminate) factor.eliminate(values);
@@ -38,13 +45,16 @@ void HarmonicFactor::apply(const Part& part, Step step, int n_interface, Complex
   const int first_before = step == Step::eliminate ? 0 : n_interface,
             first_after = step == Step::substitute ? 0 : n_interface;
   if (part.basis) part.basis->to_coordinates(first_before, n, x);
-  if (const auto* real = std::get_if<TwoBlockCholesky<double>>(&part.factor)) {
-    Matrix values = parts_of(x, part.basis.has_value());
-    solve(*real, values);
-    set_parts(values, x);
-  } else {
-    solve(std::get<TwoBlockCholesky<std::complex<double>>>(part.factor), x);
-  }
+  const auto solve_for = [&](const auto& factor) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(factor)>, TwoBlockCholesky<std::complex<double>>>) {
+      solve(factor, x);
+    } else {
+      Matrix values = parts_of(x, part.basis.has_value());
+      solve(factor, values);
+      set_parts(values, x);
+    }
+  };
+  std::visit(solve_for, part.factor);
   if (part.basis) part.basis->from_coordinates(first_after, n, x);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <variant>
 
+#include "wheelwright/linalg/sparse_two_block_cholesky.h"
 #include "wheelwright/linalg/two_block_cholesky.h"
 #include "wheelwright/mechanics/ring/boundary_symmetry.h"
 
@@ -31,6 +32,15 @@ class HarmonicFactor {
   static std::optional<HarmonicFactor> factor(std::shared_ptr<const BoundarySymmetry> symmetry,
                                               std::complex<double> forward, bool is_real, const Entry& entry);
 
+  /// From a factor in the coordinates of `basis`, of all fields.
+  HarmonicFactor(std::shared_ptr<const BoundarySymmetry> symmetry, SparseTwoBlockCholesky factor,
+                 MirrorBasis basis);
+
+  /// The factor if it is sparse.
+  const SparseTwoBlockCholesky* of_section() const {
+    return std::get_if<SparseTwoBlockCholesky>(&parts_.front().factor);
+  }
+
   // As the functions of TwoBlockCholesky.
 
   void eliminate(ComplexMatrix& loads) const;
@@ -43,7 +53,8 @@ class HarmonicFactor {
  private:
   /// The part for one class of fields.
   struct Part {
-    std::variant<TwoBlockCholesky<double>, TwoBlockCholesky<std::complex<double>>> factor;
+    std::variant<TwoBlockCholesky<double>, TwoBlockCholesky<std::complex<double>>, SparseTwoBlockCholesky>
+        factor;
     std::optional<MirrorBasis> basis;  ///< in which the factor is real
   };
   explicit HarmonicFactor(std::shared_ptr<const BoundarySymmetry> symmetry)

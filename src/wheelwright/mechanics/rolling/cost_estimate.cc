@@ -9,6 +9,10 @@ namespace {
 constexpr double square(double x) { return x * x; }
 constexpr double cube(double x) { return x * x * x; }
 
+/// Entries and flops of the sparse factor of a section, fitted to sections of 1320 to 4800 unknowns.
+double section_entries(const ProblemSize& n) { return 1.8e5 * std::pow(n.sector_dofs / 1320, 1.1); }
+double section_flops(const ProblemSize& n) { return 26e6 * std::pow(n.sector_dofs / 1320, 1.25); }
+
 /// The number of copies of each array at the peak of memory, fitted to measurements.
 struct Copies {
   double condensed, harmonics, surface;
@@ -35,12 +39,15 @@ double estimated_memory(const ProblemSize& n) {
   // Fill of nested dissection: n log n in the plane, n^(4/3) in space.
   const double fill = in_3d ? 6 * std::pow(n.sector_dofs, 4.0 / 3)
                             : 0.6 * n.sector_dofs * std::log2(std::max(n.sector_dofs, 2.0));
-  const double factor = number * fill;
-  const double condensed = number * copies.condensed * square(2 * n.radial_line + n.sector_line());
+  const double factor = n.has_sections() ? 0 : number * fill;
+  const double condensed =
+      n.has_sections() ? 0 : number * copies.condensed * square(2 * n.radial_line + n.sector_line());
   const bool real_harmonics = in_3d && n.has_real_harmonics;
-  const double harmonics =
-      copies.harmonics * (n.sectors / 2 + 1) *
-      (real_harmonics ? number * square(n.boundary()) : complex * square(n.complex_boundary()));
+  const double of_harmonic =
+      n.has_sections() ? number * section_entries(n)
+                       : copies.harmonics * (real_harmonics ? number * square(n.boundary())
+                                                            : complex * square(n.complex_boundary()));
+  const double harmonics = (n.sectors / 2 + 1) * of_harmonic;
   // Right-hand sides on the outer line that are solved together.
   const double responses = number * 5 * 192 * n.ring_line;
   const double surface =
@@ -60,13 +67,15 @@ double estimated_seconds_at_large_deformation(const ProblemSize& n) {
 double estimated_seconds_in_3d(const ProblemSize& n) {
   const bool real = n.has_real_harmonics;
   constexpr double flops_per_second = 45e9;  // dense matrices on one core
+  constexpr double sparse_flops_per_second = 8.5e9;
+  const double contact =
+      (real ? 2.5e-7 : 6e-7) * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
+  if (n.has_sections()) return (n.sectors / 2 + 1) * section_flops(n) / sparse_flops_per_second + contact;
   const double boundary = real ? n.boundary() : n.complex_boundary();
   const double flops = cube(boundary) / 3 + 2 * cube(n.sector_line()) / 3;
   const double strong_modes = real || !n.has_strong_modes() ? 0 : 13 * cube(n.radial_line);
   const double harmonics = ((real ? 1 : 4) * (n.sectors / 2 + 1) * flops + strong_modes) / flops_per_second;
   const double sector = 2e-9 * square(n.sector_dofs);
-  const double contact =
-      (real ? 2.5e-7 : 6e-7) * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
   return harmonics + sector + contact;
 }
 

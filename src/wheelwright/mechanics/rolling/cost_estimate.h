@@ -28,6 +28,8 @@ struct ProblemSize {
     return (has_strong_modes() ? radial_line / 3 : radial_line) + sector_line();
   }
   bool has_strong_modes() const { return radial_line >= 1000 && sectors >= 10; }
+  /// Sectors of one column: the harmonics have all unknowns of a sector, and sparse factors.
+  bool has_sections() const { return has_real_harmonics && columns == sectors; }
 };
 
 /// Peak memory of a run [bytes], within a factor of 1.25 (docs/performance.md): the libraries, the fields of
