@@ -15,7 +15,8 @@ const Section<Output>& output_section() {
           {.name = "vtu_every",
            .unit = "shapes",
            .field = IntegerField<Output>{&Output::vtu_every, between(0, 1000000)},
-           .meaning = "how often fields are written for ParaView; 0 means never"},
+           .meaning = "how often fields are written for ParaView, and whether at the end those of all load "
+                      "positions are; 0 means never"},
           {.name = "pictures_every",
            .unit = "shapes",
            .field = IntegerField<Output>{&Output::pictures_every, between(0, 1000000)},

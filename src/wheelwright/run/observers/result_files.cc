@@ -111,7 +111,7 @@ void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& r
   if (const auto* shown = std::get_if<PositionShown<dim>>(&event)) write(*shown, run);
   const auto* ended = std::get_if<RunEnded<dim>>(&event);
   if (!ended || !ended->solution) return;
-  rolling_->write_collection();
+  if (rolling_) rolling_->write_collection();
   rolling_.reset();
   write_shapes(run, *ended->state, ended->summary->before.objective);
   write_other_load_cases(run, *ended->solver, ended->state->shape, *ended->solution,
@@ -122,8 +122,10 @@ template <int dim>
 void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>& run) {
   const LevelSet<dim>& shape = shown.ended.state->shape;
   const State<dim>& solution = *shown.ended.solution;
-  if (!rolling_) rolling_.emplace(run.folder, shape, *shown.ended.solver, solution);
-  rolling_->write(shown.position, shown.fields);
+  if (run.study.source.output.vtu_every > 0) {
+    if (!rolling_) rolling_.emplace(run.folder, shape, *shown.ended.solver, solution);
+    rolling_->write(shown.position, shown.fields);
+  }
   if (shown.position != most_stressed_position(solution)) return;
   PositionFields<dim> worst = shown.fields;
   worst.fatigue = fatigue_field(*shown.ended.solver, solution, run.study.load_cases);
