@@ -137,6 +137,21 @@ TEST(LoftedSolid, OfConesHasTheirVolumeAndDeviatesLessThanTheTolerance) {
     EXPECT_LE(cad::deviation(hole.surface, ZeroSurface(psi), 4).distance, tolerance);
 }
 
+/// The sides of a groove around the axle have 24 waves of 1 mm. At 16 points around the axle and in the
+/// middles between them these look like 8 longer ones.
+TEST(LoftedSolid, DoesNotMissWavesBetweenItsPoints) {
+  const PolarGrid<3> grid{0.20, 0.34, 0.12, 12, {14, 12, 8}};
+  const auto psi = level_set(grid, 2, [](const Vec<3>& polar) {
+    return 0.03 + 0.001 * std::cos(24 * polar[1]) - std::hypot(polar[0] - 0.27, polar[2] - 0.12);
+  });
+  const double tolerance = 1e-4;
+  const auto solid = cad::lofted_solid(material_surface(psi, 2, 2), psi, tolerance);
+  ASSERT_TRUE(solid) << solid.failure();
+  ASSERT_EQ(solid->holes.size(), 1);
+  EXPECT_GE(solid->holes[0].surface.columns, 2 * 24);
+  EXPECT_LE(cad::deviation(solid->holes[0].surface, ZeroSurface(psi), 4).distance, tolerance);
+}
+
 TEST(LoftedSolid, SaysWhyItIsNone) {
   const auto ball = level_set(ring, 2, [&](const Vec<3>& polar) {
     const Vec<3> x = cartesian<3>(polar), centre = cartesian<3>({0.27, 0.37 * ring.sector_angle(), 0.05});

@@ -138,7 +138,8 @@ Expected<std::vector<Vec<3>>, std::string> points_of(const HolePiece& piece, con
   return points;
 }
 
-/// The largest distances from {psi = 0} in the middle between points along u, v and both.
+/// The largest distances from {psi = 0} in the middle between points along u, v and both, and along u at
+/// places that are not evenly spaced: points and middles both miss waves around the axle of certain lengths.
 struct Deviations {
   double around, along, between;
   bool folds;
@@ -148,13 +149,15 @@ struct Deviations {
 
 Deviations deviations(const SplineSurface& surface, const ZeroSurface& zero) {
   Deviations result{0, 0, 0, false};
-  int sides = 0;  // facing out of the material or into it
+  const double uneven = 1 / std::numbers::phi;  // multiples of it are spread over the intervals
+  int sides = 0;                                // facing out of the material or into it
   const auto enlarge = [&](double& largest, double u, double v) {
     largest = std::max(largest, zero.at(at(surface, u, v).position).distance());
   };
   for (int i = 0; i < surface.columns; ++i)
     for (int j = 0; j < surface.rows; ++j) {
       enlarge(result.around, i + 0.5, j);
+      enlarge(result.around, i + std::fmod(uneven * (i + 1), 1.0), j);
       enlarge(result.along, i, j + 0.5);
       enlarge(result.between, i + 0.5, j + 0.5);
       const SurfaceJet jet = at(surface, i + 0.5, j + 0.5);

@@ -131,7 +131,11 @@ Expected<Faces, FacesFaults> faces_of(const LevelSet<3>& psi, int parts, FaceKin
       auto lofted = cad::lofted_solid(*fewer, psi, tolerance);
       if (lofted) {
         const auto found = deviation(*lofted, psi);
-        return Faces{*std::move(lofted), found, {}};
+        if (found.distance <= tolerance) return Faces{*std::move(lofted), found, {}};
+        why_facets =
+            fmt::format("they deviate by {:.3g} mm at {}", found.distance * millimetres, place(found.place));
+      } else {
+        why_facets = lofted.failure();
       }
       why_facets = lofted.failure();
       can_be_smooth = false;
