@@ -25,6 +25,12 @@ std::string division(const FittedSurface& surface) {
 
 }  // namespace
 
+std::string advice_on_tolerance(double deviation) {
+  const double decade = std::pow(10, std::floor(std::log10(deviation * mm)) - 1);
+  return fmt::format("use --tolerance {:.4g} or more, or a finer grid",
+                     (std::floor(deviation * mm / decade) + 1) * decade);
+}
+
 Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int map_degree,
                                                     double tolerance) {
   const auto domain = cut_domain(psi, gauss_points);
@@ -41,8 +47,9 @@ Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int 
     if (fitted.deviation <= tolerance && std::abs(fitted.volume_error) < max_volume_error) break;
   }
   if (fitted.deviation > tolerance)
-    return SurfaceRefusal{fmt::format("{} still deviates by {:.3g} mm at {}; increase --tolerance",
-                                      division(fitted), fitted.deviation * mm, place(fitted.place))};
+    return SurfaceRefusal{fmt::format(
+        "{} still deviates by {:.3g} mm at {}, more than the tolerance of {:.3g} mm; {}", division(fitted),
+        fitted.deviation * mm, place(fitted.place), tolerance * mm, advice_on_tolerance(fitted.deviation))};
   const auto report = check_solid(solid_mesh(fitted.surface));
   if (!report) {
     Vec<3> at = report.failure().place;

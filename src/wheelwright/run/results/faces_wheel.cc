@@ -72,7 +72,7 @@ Expected<SurfaceMesh, FacesFaults> checked_and_simplified(const SurfaceMesh& sur
                                                           double tolerance) {
   SurfaceMesh mesh = simplified(surface, psi, tolerance);
   if (const auto report = check_surface(mesh.points, mesh.triangles); !report)
-    return FacesFaults{{fmt::format("{}: {}; choose another --tolerance",
+    return FacesFaults{{fmt::format("{}: {}; use a smaller --tolerance",
                                     place(polar<3>(report.failure().place)), report.failure().what)}};
   return mesh;
 }
@@ -109,9 +109,10 @@ Expected<Faces, FacesFaults> facets_from(const SurfaceMesh& surface, SurfaceMesh
     const bool can_be_nearer =
         k + 1 < shares.size() && deviation(facets_of(surface, psi), psi).distance <= tolerance;
     if (!can_be_nearer)
-      return FacesFaults{
-          {fmt::format("{}: facets deviate by {:.4f} mm from the level set; increase --tolerance",
-                       place(found.place), found.distance * millimetres)}};
+      return FacesFaults{{fmt::format(
+          "{}: facets deviate by {:.3g} mm from the level set, more than the tolerance of {:.3g} mm; {}",
+          place(found.place), found.distance * millimetres, tolerance * millimetres,
+          advice_on_tolerance(found.distance))}};
     auto next = checked_and_simplified(surface, psi, shares[k + 1] * tolerance);
     if (!next) return next.failure();
     fewer = *std::move(next);
