@@ -281,7 +281,7 @@ class ExportCommand : public Subcommand {
       const WheelInput<2> section{input.source, section_at(input.shape, z * 1e-3),
                                   fmt::format("{}-z{:g}", input.name, z),
                                   fmt::format("{}, section at z = {:g} mm", input.which, z)};
-      const auto fitted_section = fitted(section, accuracy);
+      const auto fitted_section = fitted(section, accuracy, Pieces::of_a_section);
       if (!fitted_section) return refuse(fitted_section.failure());
       const Formats drawings = *parse_formats(formats_of_sections);
       if (const int code = add_files(section.name, *fitted_section, drawings, files); code != exit_done)
@@ -301,12 +301,16 @@ class ExportCommand : public Subcommand {
 
   using Faults = std::vector<cad::OutlineFault>;
 
+  /// Pieces of a section may be connected in other planes.
+  enum class Pieces { of_a_wheel, of_a_section };
+
   /// The model of a wheel; prints what its outline is worth.
-  static Expected<WheelModel, Faults> fitted(const WheelInput<2>& input, double accuracy) {
+  static Expected<WheelModel, Faults> fitted(const WheelInput<2>& input, double accuracy,
+                                             Pieces pieces = Pieces::of_a_wheel) {
     auto wheel = fitted_wheel(input.source, input.shape, title(input), accuracy);
     if (!wheel) return wheel.failure();
     fmt::print("{:<16} {}\n{}", "wheel", wheel->model.title, text(wheel->report));
-    warn_of_pieces(wheel->report.bodies);
+    if (pieces == Pieces::of_a_wheel) warn_of_pieces(wheel->report.bodies);
     if (const auto warning = roughness_warning(input.source, wheel->report.roughness); !warning.empty())
       print_warning(stderr, warning);
     return std::move(wheel->model);
