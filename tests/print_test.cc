@@ -14,6 +14,7 @@
 #include "wheelwright/run/results/making.h"
 #include "wheelwright/shape/cut/measure.h"
 #include "wheelwright/shape/evolution/evolver.h"
+#include "wheelwright/shape/evolution/printed_shapes.h"
 #include "wheelwright/shape/evolution/spline_level_set.h"
 #include "wheelwright/shape/geometry/cell_map.h"
 #include "wheelwright/shape/geometry/shapes.h"
@@ -153,6 +154,30 @@ TEST(Print, ShapesThatFitAreNotChanged) {
           with_hole(full(lattice), widening), with_hole(full(lattice), narrowing)}) {
       const auto clipped = limits.clip(shape);
       EXPECT_EQ(limits.keep(clipped).values, clipped.values);
+    }
+  }
+}
+
+/// Grooves in the upper face with a fillet need no support. Their edges move by little more than those of
+/// their spline, whose knots are the vertices; a deeper change would be one by the condition of prints.
+TEST(Print, GroovesInTheUpperFaceKeepTheirEdges) {
+  for (const int layers : {6, 12}) {
+    const Lattice<3> lattice(grid(layers), 2);
+    const ProtectedBands<3> limits(lattice, bands_with(printed(26.5)));
+    const double cell = lattice.grid().resolution();
+    for (const double depth : {0.04, 0.06, 0.066, 0.08}) {
+      const auto groove = limits.clip(with_hole(full(lattice), Groove{0.222, 0.318, 0.12, depth, 0.02}));
+      ASSERT_TRUE(rises_from_the_plate(groove, SideFace::smaller_z));
+      EXPECT_FALSE(rises_from_the_plate(groove, SideFace::larger_z));
+      const auto kept = limits.keep(groove), spline = spline_level_set(spline_coefficients(groove));
+      for (int node = 0; node < lattice.n_nodes(); ++node)
+        if (std::abs(groove.values[node]) < 0.5 * cell) {
+          ASSERT_NEAR(kept.values[node], groove.values[node], 0.2 * cell) << layers << ' ' << depth;
+          ASSERT_NEAR(kept.values[node], spline.values[node], 0.25 * cell) << layers << ' ' << depth;
+        }
+      EXPECT_TRUE(all_holes_open_upwards(kept));
+      EXPECT_LT(overhang(kept), allowed(lattice.grid(), printed(26.5)));
+      EXPECT_EQ(limits.keep(kept).values, kept.values);
     }
   }
 }

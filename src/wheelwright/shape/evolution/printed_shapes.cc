@@ -29,6 +29,19 @@ LevelSet<3> below(LevelSet<3> psi, const std::vector<double>& ceiling, double un
 
 }  // namespace
 
+bool rises_from_the_plate(const LevelSet<3>& psi, SideFace plate) {
+  const auto& lattice = psi.lattice;
+  const int to = plate == SideFace::smaller_z ? 1 : -1;
+  const double rounding = 1e-10 * lattice.grid().resolution();
+  for (int node = 0; node < lattice.n_nodes(); ++node) {
+    auto place = lattice.node_position(node);
+    place[2] += to;
+    if (place[2] < 0 || place[2] >= lattice.nodes()[2]) continue;
+    if (psi.values[lattice.node_index(place)] < psi.values[node] - rounding) return false;
+  }
+  return true;
+}
+
 PrintedShapes::PrintedShapes(const Lattice<3>& lattice, const Print& print, const Ceiling& ceiling)
     : lattice_(lattice),
       up_(print.plate == SideFace::smaller_z ? 1 : -1),
@@ -248,6 +261,9 @@ LevelSet<3> PrintedShapes::keep(LevelSet<3> psi) const {
   const auto allowed = [&](LevelSet<3> c) {
     return below(spline_level_set(keep_coefficients(std::move(c))), ceiling_, 0);
   };
+  // Nothing hangs over: only the coefficients of a spline oscillate where the level set has kinks.
+  if (rises_from_the_plate(psi, up_ > 0 ? SideFace::smaller_z : SideFace::larger_z))
+    return allowed(coefficients);
   // The slopes of a drawn level set are not those of a distance, which the spline between layers needs.
   constexpr int rounds = 3;
   psi = allowed(coefficients);

@@ -9,6 +9,10 @@
 
 namespace wheelwright {
 
+/// Whether a level set falls nowhere with the distance from the plate, so that all its holes stay as wide as
+/// they are or become wider.
+bool rises_from_the_plate(const LevelSet<3>& psi, SideFace plate);
+
 /// The shapes of one lattice that can be printed layer by layer, by a condition on the coefficients of their
 /// splines: from one layer to the next, none sinks by more than the spline of the layer falls within the
 /// reach of the overhang (docs/method.md, "Printed shapes"; after M. Langelaar, Struct. Multidisc. Optim. 55,
@@ -29,7 +33,7 @@ class PrintedShapes : public MadeShapes<3> {
   LevelSet<3> keep_coefficients(LevelSet<3> coefficients) const override;
 
   /// A level set whose coefficients are not allowed near an edge becomes the spline of allowed ones, which
-  /// are about a distance.
+  /// are about a distance, unless it rises from the plate.
   LevelSet<3> keep(LevelSet<3> psi) const override;
 
   bool follow(const LevelSet<3>& coefficients, const LevelSet<3>& moved, Following& following) const override;
