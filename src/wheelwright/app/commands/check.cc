@@ -14,6 +14,7 @@
 #include "wheelwright/run/study/checked_case.h"
 #include "wheelwright/run/study/feature_warnings.h"
 #include "wheelwright/run/study/filled_holes.h"
+#include "wheelwright/run/study/fitting.h"
 #include "wheelwright/run/study/loose_material.h"
 #include "wheelwright/run/study/plane_comparison.h"
 #include "wheelwright/run/study/predicted_bounds.h"

@@ -2,6 +2,7 @@
 
 #include "wheelwright/quantities/analysis/deformation_size.h"
 #include "wheelwright/run/study/feature_warnings.h"
+#include "wheelwright/run/study/fitting.h"
 #include "wheelwright/run/study/roughness_warning.h"
 
 namespace wheelwright {

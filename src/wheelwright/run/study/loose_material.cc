@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "wheelwright/run/study/fitting.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/evolution/islands.h"
 #include "wheelwright/shape/geometry/place.h"
@@ -14,7 +15,10 @@ namespace {
 template <int dim>
 std::vector<std::string> loose_pieces(const Case& c) {
   const auto attached = without_islands(initial_shape<dim>(c), std::numeric_limits<double>::infinity());
-  if (!attached) return {attached.failure().detail};
+  if (!attached) {
+    const std::string remedy = remedy_of_fitting<dim>(c);
+    return {attached.failure().detail + (remedy.empty() ? "" : "; made to fit: " + remedy)};
+  }
   std::vector<std::string> pieces;
   for (const ShapeEvent<dim>& piece : attached->removed)
     pieces.push_back(

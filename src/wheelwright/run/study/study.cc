@@ -260,27 +260,10 @@ LevelSet<dim> given_shape(const Case& c) {
 }  // namespace
 
 template <int dim>
-std::optional<std::string> fitting_of_initial_shape(const Case& c) {
-  const SavedLevelSet* saved = saved_shape(c);
-  const bool is_averaged = invariance(c) != Invariance::none;
-  if (!mould(c) && !print(c) && !(saved && is_averaged)) return {};
-  const LevelSet<dim> fitted = initial_shape<dim>(c),
-                      given = ProtectedBands<dim>(fitted.lattice, bands(c)).clip(given_shape<dim>(c));
-  const double cell = given.lattice.grid().resolution();
-  double farthest = 0;  // of the nodes near an edge
-  for (std::size_t i = 0; i < given.values.size(); ++i)
-    if (std::min(std::abs(given.values[i]), std::abs(fitted.values[i])) < cell)
-      farthest = std::max(farthest, std::abs(given.values[i] - fitted.values[i]));
-  if (farthest < 1e-6 * cell) return {};
-  const char* problem = c.optimizer.made == Manufacture::turned     ? "is not a body of revolution"
-                        : c.optimizer.made == Manufacture::extruded ? "is not the same along the axle"
-                        : c.optimizer.made == Manufacture::printed  ? "cannot be printed without support"
-                                                                    : "does not come out of the mould";
-  const bool is_filled = has_holes(given) && !has_holes(fitted);
-  return fmt::format("the {} {}: {}, which {}", saved ? "saved shape" : "initial shape", problem,
-                     is_averaged ? "it is averaged" : "it is made to fit",
-                     is_filled ? "fills all its holes; smaller cells in [grid] may resolve them"
-                               : fmt::format("moves its edges by up to about {:.2g} mm", 1e3 * farthest));
+LevelSet<dim> shape_before_fitting(const Case& c) {
+  LevelSet<dim> given = given_shape<dim>(c);
+  const ProtectedBands<dim> limits(given.lattice, bands(c));
+  return limits.clip(std::move(given));
 }
 
 template <int dim>
@@ -447,7 +430,7 @@ ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
   template LoadCases<dim> load_cases<dim>(const Case&);                                                     \
   template LevelSet<dim> initial_shape(const Case&);                                                        \
   template std::optional<VolumeChange> volume_change_of_saved_shape<dim>(const Case&);                      \
-  template std::optional<std::string> fitting_of_initial_shape<dim>(const Case&);                           \
+  template LevelSet<dim> shape_before_fitting<dim>(const Case&);                                            \
   template OptimizerOptions optimizer_options<dim>(const Case&);                                            \
   template Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>&);         \
   template Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case&, const StateSolver<dim>&); \

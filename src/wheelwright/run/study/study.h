@@ -40,10 +40,9 @@ std::optional<VolumeChange> volume_change_of_saved_shape(const Case& c);
 /// One readable line.
 std::string text(const VolumeChange& change);
 
-/// Says how an initial shape that cannot be made as the case asks (Optimizer::made) was changed; empty for
-/// others.
+/// The drawn or saved shape, clipped at the bands, before it is made as the case asks (Optimizer::made).
 template <int dim>
-std::optional<std::string> fitting_of_initial_shape(const Case& c);
+LevelSet<dim> shape_before_fitting(const Case& c);
 
 EvolutionOptions evolution_options(const Case& c);
 template <int dim>
