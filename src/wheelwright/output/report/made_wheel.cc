@@ -16,9 +16,15 @@ constexpr double mm_per_m = 1e3, degrees_per_radian = 180 / std::numbers::pi;
 /// between the nodes of a spline, deviate by as much.
 constexpr double overhang_tolerance = 3;
 
+/// In degrees, to a hundredth.
+std::string degrees(double angle) {
+  const double rounded = std::round(100 * angle * degrees_per_radian) / 100;
+  return fmt::format("{:.3g} deg", rounded == 0 ? 0 : rounded);  // no -0
+}
+
 std::string at(const AxialAngle& found) {
-  return fmt::format("{:.3g} deg at {}, z = {:.1f} mm", found.angle * degrees_per_radian,
-                     place_text<3>(found.place), found.place[2] * mm_per_m);
+  return fmt::format("{} at {}, z = {:.1f} mm", degrees(found.angle), place_text<3>(found.place),
+                     found.place[2] * mm_per_m);
 }
 
 }  // namespace
@@ -52,7 +58,9 @@ std::string making_warning(const MadeWheel& made) {
     return fmt::format("an undercut does not come out of the mould: {}", at(made.mould->smallest));
   if (made.print &&
       (made.print->largest.angle - made.print->overhang) * degrees_per_radian > overhang_tolerance)
-    return fmt::format("an overhang needs support: {}", at(made.print->largest));
+    return fmt::format(
+        "an overhang needs support: {}, where the case allows {}; more grid.axial_cells keep it smaller",
+        at(made.print->largest), degrees(made.print->overhang));
   return "";
 }
 
