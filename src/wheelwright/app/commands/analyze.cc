@@ -26,6 +26,7 @@
 #include "wheelwright/quantities/analysis/ground_pass.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/results/finer_wheel.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/results/refined_numbers.h"
 #include "wheelwright/run/study/study.h"
 
@@ -114,17 +115,20 @@ void write_plots(const std::filesystem::path& folder, const RollingReport& repor
 template <int dim>
 void write_fields(const std::filesystem::path& folder, const RollingReport& report,
                   const LevelSet<dim>& shape, const StateSolver<dim>& solver, const State<dim>& states,
-                  const LoadCases<dim>& all_loads) {
+                  const LoadCases<dim>& all_loads, SideFace shown) {
   const auto points = contact_points(solver, states);
   if constexpr (dim == 2)
     write_atomically(folder / "pressures.svg",
                      plot_svg(pressure_plot(points, report.analysis.azimuths, "Contact pressure")));
   write_pressure_csv<dim>(folder / "pressures.csv", points);
-  write_wheel_pictures(
-      folder,
-      {.prefix = "", .title = report.title, .width = report.width, .n_positions = solver.model().n_positions},
-      shape, states.domain(), most_stressed_fields(solver, states, all_loads),
-      turn_peaks<dim>(report.fatigue, report.damage, report.heat));
+  write_wheel_pictures(folder,
+                       {.prefix = "",
+                        .title = report.title,
+                        .width = report.width,
+                        .n_positions = solver.model().n_positions,
+                        .shown = shown},
+                       shape, states.domain(), most_stressed_fields(solver, states, all_loads),
+                       turn_peaks<dim>(report.fatigue, report.damage, report.heat));
 }
 
 std::string check_loads(const std::string& text) {
@@ -244,7 +248,7 @@ class AnalyzeCommand : public Subcommand {
     if (const std::string warning = deformation_warning(size); !warning.empty())
       warn_about(wheel.name, warning);
     for (const std::string& warning : warnings_of_heat(report)) warn_about(wheel.name, warning);
-    if (output_) write(report, shape, solver, **solved, all_loads);
+    if (output_) write(report, shape, solver, **solved, all_loads, shown_side_face(c));
     return exit_done;
   }
 
@@ -297,10 +301,10 @@ class AnalyzeCommand : public Subcommand {
 
   template <int dim>
   void write(const RollingReport& report, const LevelSet<dim>& shape, const StateSolver<dim>& solver,
-             const State<dim>& states, const LoadCases<dim>& all_loads) const {
+             const State<dim>& states, const LoadCases<dim>& all_loads, SideFace shown) const {
     make_folder(folder());
     write_plots(folder(), report);
-    write_fields(folder(), report, shape, solver, states, all_loads);
+    write_fields(folder(), report, shape, solver, states, all_loads, shown);
     if (!report.pass.empty())
       write_atomically(folder() / "pass.csv", pass_csv(report.pass, whole_width(dim, report.width)));
     write_atomically(folder() / result_file, rolling_json(report));

@@ -56,8 +56,9 @@ std::string png(const WheelModel& wheel) {
 }
 
 std::string png(const SurfaceModel& wheel) {
-  return png_file(lit_image(lit_wheel(wheel.surface, wheel.shape.lattice.grid(), layer_circles(wheel)),
-                            wheel_camera(wheel.shape.lattice.grid()), width));
+  const PolarGrid<3>& grid = wheel.shape.lattice.grid();
+  return png_file(lit_image(lit_wheel(wheel.surface, grid, wheel.shown, layer_circles(wheel)),
+                            wheel_camera(grid, wheel.shown), width));
 }
 
 }  // namespace wheelwright

@@ -10,6 +10,7 @@
 #include "wheelwright/cad/solid/lofted_solid.h"
 #include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/output/report/solid_mesh.h"
+#include "wheelwright/shape/geometry/print.h"
 #include "wheelwright/shape/surface/faceted_solid.h"
 
 namespace wheelwright {
@@ -51,6 +52,7 @@ struct SurfaceModel {
   int parts;            ///< into which each cell was divided along each axis for the surface
   int map_degree;       ///< of its isoparametric cells
   std::vector<SurfaceLayer> layers = {};
+  SideFace shown = SideFace::larger_z;  ///< in pictures
 };
 
 /// The faces of a solid whose shape changes along the axle.

@@ -257,7 +257,10 @@ Json run_json(const ReportRun<dim>& run) {
   if (run.given) json["given_contours"] = run.given->contours;
   if (run.summary) {
     json["summary"] = Json::parse(summary_json(*run.summary));
-    if (run.summary->made) json["made"] = sentence(*run.summary->made);
+    if (const auto& made = run.summary->made) {
+      json["made"] = sentence(*made);
+      json["shows_smaller_z"] = made->print && made->print->plate > 0;
+    }
     for (const SummarizedBound& bound : run.summary->bounds)
       json["bound_units"].push_back({{"unit", bound.shown.name}, {"factor", bound.shown.factor}});
     json["rolling"] = {{"before", rolling_json(run.summary->before.wheel)},

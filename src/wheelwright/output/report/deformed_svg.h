@@ -10,6 +10,7 @@
 #include "wheelwright/output/report/colour_scale.h"
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/shape/geometry/level_set.h"
+#include "wheelwright/shape/geometry/print.h"
 
 namespace wheelwright {
 
@@ -42,6 +43,7 @@ struct DeformedPicture {
   std::optional<DrawnPeak<dim>> peak;
   bool is_peak_projected = false;  ///< when dim = 3: a ring marks it through the material in front of it
   LayerCircles layers = {};
+  SideFace shown = SideFace::larger_z;  ///< when dim = 3
 };
 
 /// The largest of 1, 2, 5, 10, 20, ... with which no displacement is drawn larger than 5 % of the wheel's

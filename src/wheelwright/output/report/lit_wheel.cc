@@ -9,6 +9,7 @@
 #include "wheelwright/mechanics/state/axle_height.h"
 #include "wheelwright/mechanics/state/ground_frame.h"
 #include "wheelwright/output/report/colour_map.h"
+#include "wheelwright/output/report/cut_open.h"
 #include "wheelwright/output/report/ground_outline.h"
 #include "wheelwright/output/report/layered_surface.h"
 #include "wheelwright/output/report/load_marks.h"
@@ -138,12 +139,12 @@ LitBody ribbons(const std::vector<Vec<3>>& points, const std::vector<std::array<
 
 /// Adds the lines between layers, visible on light and dark colours. `points`: of the drawn surface.
 void add_layer_lines(const LayeredSurface& surface, const std::vector<Vec<3>>& points,
-                     const PolarGrid<3>& grid, std::vector<LitBody>& bodies) {
+                     const PolarGrid<3>& grid, const Camera& camera, std::vector<LitBody>& bodies) {
   constexpr Rgb white{0xff, 0xff, 0xff}, ink{0x24, 0x29, 0x2f};
   if (surface.layer_edges.empty()) return;
   const double width = line_width * grid.outer_radius;
-  bodies.push_back(ribbons(points, surface.layer_edges, wheel_camera(grid), 2 * width, width, white));
-  bodies.push_back(ribbons(points, surface.layer_edges, wheel_camera(grid), width, 1.5 * width, ink));
+  bodies.push_back(ribbons(points, surface.layer_edges, camera, 2 * width, width, white));
+  bodies.push_back(ribbons(points, surface.layer_edges, camera, width, 1.5 * width, ink));
 }
 
 /// The ground under the wheel, on which it leans by the camber.
@@ -189,7 +190,7 @@ std::string projected_peak(const Lattice<3>& lattice, const DeformedPicture<3>& 
   for (const double component : u) at_place.push_back({static_cast<float>(component)});
   const auto drawn = standing_on_the_ground(displaced({place}, at_place, lattice, picture), lattice.grid(),
                                             picture.contact_azimuth);
-  const Vec<3> seen = wheel_camera(lattice.grid()).seen(drawn[0]);
+  const Vec<3> seen = wheel_camera(lattice.grid(), picture.shown).seen(drawn[0]);
   const PictureView view{{}, 1, P::margin, P::top, P::wheel_size};
   return peak_mark(view, {seen[0], -seen[1]},
                    "peak " + value_text(picture.peak->value, escape_xml(picture.scalar.unit)));
@@ -207,6 +208,20 @@ std::string peak_text(const DeformedPicture<3>& picture) {
       picture.is_peak_projected ? "; ring: its projection" : "");
 }
 
+/// The columns that are left out of a wheel that is cut open: from a little below its right side, as it is
+/// seen, to a little beyond its top, so that the camera sees both cut faces.
+ColumnRange columns_to_remove(const PolarGrid<3>& grid, SideFace shown) {
+  constexpr double below = std::numbers::pi / 12, beyond = std::numbers::pi / 12;
+  const int columns = grid.columns() * grid.n_sectors;
+  const double down = 0, right = down + 0.5 * std::numbers::pi, top = down + std::numbers::pi;
+  const auto column_at = [&](double azimuth) {
+    return static_cast<int>(std::lround(azimuth / grid.column_angle()));
+  };
+  const int first = column_at(right - below), last = column_at(top + beyond);
+  if (shown == SideFace::larger_z) return {first, last};
+  return {columns - last, columns - first};
+}
+
 }  // namespace
 
 std::vector<Vec<3>> standing_on_the_ground(std::vector<Vec<3>> points, const PolarGrid<3>& grid,
@@ -218,19 +233,38 @@ std::vector<Vec<3>> standing_on_the_ground(std::vector<Vec<3>> points, const Pol
   return points;
 }
 
-Camera wheel_camera(const PolarGrid<3>& grid) {
-  constexpr double yaw = 0.6, pitch = 0.24;
-  return {yaw, pitch, {}, half_view * std::hypot(grid.outer_radius, 0.25 * grid.width)};
+Camera wheel_camera(const PolarGrid<3>& grid, SideFace shown) {
+  constexpr double yaw = 0.6, pitch = 0.24, half_turn = std::numbers::pi;
+  return {shown == SideFace::larger_z ? yaw : yaw + half_turn,
+          pitch,
+          {},
+          half_view * std::hypot(grid.outer_radius, 0.25 * grid.width)};
 }
 
-std::vector<LitBody> lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid,
+std::vector<LitBody> lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid, SideFace shown,
                                const LayerCircles& layers) {
-  constexpr Rgb blue{0x6f, 0x9a, 0xc4};
-  std::vector<LitBody> bodies{{.points = standing_on_the_ground(surface.points, grid, 0),
-                               .triangles = surface.triangles,
-                               .colours = std::vector<Rgb>(surface.points.size(), blue)}};
-  const LayeredSurface layered = layered_surface(surface, grid, layers.radii);
-  add_layer_lines(layered, standing_on_the_ground(layered.points, grid, 0), grid, bodies);
+  constexpr Rgb blue{0x6f, 0x9a, 0xc4}, ochre{0xd9, 0xa4, 0x58};
+  const auto body = [&](const std::vector<Vec<3>>& points, std::vector<std::array<int, 3>> triangles,
+                        const Rgb& colour) {
+    return LitBody{.points = standing_on_the_ground(points, grid, 0),
+                   .triangles = std::move(triangles),
+                   .colours = std::vector<Rgb>(points.size(), colour)};
+  };
+  LayeredSurface layered = layered_surface(surface, grid, layers.radii);
+  std::vector<LitBody> bodies;
+  if (has_closed_cavities(surface)) {
+    const ColumnRange removed = columns_to_remove(grid, shown);
+    CutSurface cut = cut_open(surface, grid, removed);
+    bodies.push_back(body(surface.points, std::move(cut.triangles), blue));
+    bodies.push_back(body(cut.face_points, std::move(cut.face_triangles), ochre));
+    std::erase_if(layered.layer_edges, [&](const auto& edge) {
+      return contains(removed, grid, 0.5 * (layered.points[edge[0]] + layered.points[edge[1]]));
+    });
+  } else {
+    bodies.push_back(body(surface.points, surface.triangles, blue));
+  }
+  add_layer_lines(layered, standing_on_the_ground(layered.points, grid, 0), grid, wheel_camera(grid, shown),
+                  bodies);
   return bodies;
 }
 
@@ -261,9 +295,10 @@ std::string deformed_svg(const SurfaceMesh& whole, const Lattice<3>& lattice,
                                              picture.contact_azimuth);
   std::vector<LitBody> bodies{
       {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}};
-  add_layer_lines(surface, points, grid, bodies);
+  const Camera camera = wheel_camera(grid, picture.shown);
+  add_layer_lines(surface, points, grid, camera, bodies);
   if (!picture.is_bonded) bodies.insert(bodies.begin(), lit_ground(grid, picture.ground, picture.camber));
-  const Image image = lit_image(bodies, wheel_camera(grid), image_pixels);
+  const Image image = lit_image(bodies, camera, image_pixels);
   const bool is_pressed = Press(lattice, picture).maximum() > 0.002 * grid.outer_radius;
   return deformed_document(
       picture,

@@ -6,6 +6,7 @@
 
 #include "wheelwright/base/text.h"
 #include "wheelwright/base/units.h"
+#include "wheelwright/output/report/cut_open.h"
 #include "wheelwright/output/report/lit_wheel.h"
 #include "wheelwright/output/report/picture_polygon.h"
 
@@ -126,9 +127,10 @@ std::string wheel_panel(const PolarGrid<2>& grid, const WheelState<2>& wheel, do
 }
 
 std::string wheel_panel(const PolarGrid<3>& grid, const WheelState<3>& wheel, double centre_x,
-                        const LayerCircles& layers) {
+                        const LayerCircles& layers, SideFace shown) {
   constexpr int pixels = 720;  // for screens with several pixels per unit of the picture
-  const Image image = lit_image(lit_wheel(wheel.boundary, grid, layers), wheel_camera(grid), pixels);
+  const Image image =
+      lit_image(lit_wheel(wheel.boundary, grid, shown, layers), wheel_camera(grid, shown), pixels);
   return fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n",
                      centre_x - 0.5 * wheel_diameter, top, wheel_diameter, data_url(image));
 }
@@ -257,9 +259,13 @@ std::string comparison_svg(const PolarGrid<2>& grid, const Comparison<2>& compar
 }
 
 std::string comparison_svg(const PolarGrid<3>& grid, const Comparison<3>& comparison) {
-  return with_numbers(comparison,
-                      wheel_panel(grid, comparison.before, first_middle, layers_before(comparison)),
-                      wheel_panel(grid, comparison.after, second_middle, comparison.layers));
+  Comparison<3> captioned = comparison;
+  if (has_closed_cavities(comparison.before.boundary) || has_closed_cavities(comparison.after.boundary))
+    captioned.caption += "; cut open to show closed cavities";
+  return with_numbers(
+      captioned,
+      wheel_panel(grid, comparison.before, first_middle, layers_before(comparison), comparison.shown),
+      wheel_panel(grid, comparison.after, second_middle, comparison.layers, comparison.shown));
 }
 
 }  // namespace wheelwright

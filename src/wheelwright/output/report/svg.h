@@ -8,6 +8,7 @@
 
 #include "wheelwright/output/report/layer_circles.h"
 #include "wheelwright/shape/geometry/contour.h"
+#include "wheelwright/shape/geometry/print.h"
 #include "wheelwright/shape/surface/surface_mesh.h"
 
 namespace wheelwright {
@@ -53,8 +54,9 @@ struct Comparison {
   std::string objective_name;  ///< e.g. "strain energy"
   std::string objective_unit;  ///< e.g. "J/m"
   WheelState<dim> before, after;
-  LayerCircles layers = {};         ///< of the second wheel
-  LayerCircles layers_before = {};  ///< of the first; empty: the same
+  LayerCircles layers = {};             ///< of the second wheel
+  LayerCircles layers_before = {};      ///< of the first; empty: the same
+  SideFace shown = SideFace::larger_z;  ///< when dim = 3
 };
 
 /// The comparison as an SVG document for pages and README files. In 2D the holes of the first wheel are

@@ -38,7 +38,8 @@ DeformedPicture<dim> stress_picture(const PictureNames& names, const PositionFie
           .rim_force = dim == 2 ? scaled(names.width, fields.rim_force) : fields.rim_force,
           .contact = fields.contact,
           .peak = fields.von_mises,
-          .layers = fields.layers};
+          .layers = fields.layers,
+          .shown = names.shown};
 }
 
 /// The same with the displacement towards the ground instead.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "wheelwright/output/report/turn_peaks.h"
+#include "wheelwright/shape/geometry/print.h"
 
 namespace wheelwright {
 
@@ -11,8 +12,9 @@ namespace wheelwright {
 struct PictureNames {
   std::string prefix;  ///< of the files
   std::string title;
-  double width;     ///< of the wheel, to which forces refer [m]
-  int n_positions;  ///< load positions of a sector
+  double width;                         ///< of the wheel, to which forces refer [m]
+  int n_positions;                      ///< load positions of a sector
+  SideFace shown = SideFace::larger_z;  ///< in pictures in 3D
 };
 
 /// Draws a solved shape in its most_stressed_position(): PREFIXstress.svg, PREFIXstress_contact.svg (the

@@ -20,6 +20,7 @@
 #include "wheelwright/output/report/workshop_surface.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/results/given_wheel.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/results/run_title.h"
 #include "wheelwright/shape/cut/measure.h"
 
@@ -74,7 +75,8 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                      .before = before,
                                      .after = after,
                                      .layers = layer_circles(run.study.model().materials),
-                                     .layers_before = layer_circles(given_by_case.model().materials)}));
+                                     .layers_before = layer_circles(given_by_case.model().materials),
+                                     .shown = shown_side_face(run.study.source)}));
 }
 
 /// The wheel under every load case except the first: its pictures, in the folder load_cases.
@@ -91,7 +93,8 @@ void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& sol
                          {.prefix = name + "_",
                           .title = run_title(run.study.source) + ", " + name,
                           .width = run.study.source.wheel.width,
-                          .n_positions = model.n_positions},
+                          .n_positions = model.n_positions,
+                          .shown = shown_side_face(run.study.source)},
                          shape, (*state)->domain(), most_stressed_fields(solver, **state),
                          turn_peaks(wheel.others[k - 1]));
   }
@@ -135,7 +138,8 @@ void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>
                        {.prefix = "",
                         .title = run_title(run.study.source),
                         .width = run.study.source.wheel.width,
-                        .n_positions = run.study.model().n_positions},
+                        .n_positions = run.study.model().n_positions,
+                        .shown = shown_side_face(run.study.source)},
                        shape, solution.domain(), worst, turn_peaks(shown.ended.summary->after.wheel));
 }
 

@@ -7,6 +7,7 @@
 #include "wheelwright/output/report/solution_fields.h"
 #include "wheelwright/output/report/wheel_pictures.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/results/run_title.h"
 
 namespace wheelwright {
@@ -82,7 +83,8 @@ void ShapePictures<dim>::operator()(const Event<dim>& event, const RunView<dim>&
       {.prefix = fmt::format("shape_{:04d}_", done->state.iteration),
        .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration),
        .width = run.study.source.wheel.width,
-       .n_positions = run.study.model().n_positions},
+       .n_positions = run.study.model().n_positions,
+       .shown = shown_side_face(run.study.source)},
       shape, solution.domain(), most_stressed_fields(solver, solution, cases),
       turn_peaks<dim>(fatigue_results(solver, shape, solution),
                       fatigue_damage(solver, shape, solution, cases, Interrupt()),

@@ -138,7 +138,6 @@ Expected<Faces, FacesFaults> faces_of(const LevelSet<3>& psi, int parts, FaceKin
       } else {
         why_facets = lofted.failure();
       }
-      why_facets = lofted.failure();
       can_be_smooth = false;
     }
     auto faces = facets_from(surface, *std::move(fewer), psi, tolerance);

@@ -5,6 +5,7 @@
 #include "wheelwright/cad/outline/cut_outline.h"
 #include "wheelwright/cad/outline/fit_outline.h"
 #include "wheelwright/case/version.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/study/layer_shapes.h"
 
 namespace wheelwright {
@@ -61,7 +62,8 @@ Expected<FittedSolidWheel, Faults> fitted_wheel(const Case& c, const LevelSet<3>
                      .shape = shape,
                      .surface = whole->surface,
                      .parts = whole->parts,
-                     .map_degree = c.grid.degree};
+                     .map_degree = c.grid.degree,
+                     .shown = shown_side_face(c)};
   for (LayerShape<3>& layer : layer_shapes(c, shape)) {
     const auto part = surfaced(layer.shape);
     if (!part) return Faults{{fmt::format("{}: {}", layer.name, part.failure().what)}};

@@ -39,4 +39,9 @@ std::optional<MadeWheel> made_wheel(const Case& c, const LevelSet<3>& shape) {
   return mould(c) || print(c) ? made_wheel(c, shape_boundary(shape, c.grid.degree)) : made_as_asked(c);
 }
 
+SideFace shown_side_face(const Case& c) {
+  const auto layers = print(c);
+  return layers && layers->plate == SideFace::larger_z ? SideFace::smaller_z : SideFace::larger_z;
+}
+
 }  // namespace wheelwright

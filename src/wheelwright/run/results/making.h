@@ -13,4 +13,7 @@ MadeWheel made_wheel(const Case& c, const SurfaceMesh& surface);
 template <int dim>
 std::optional<MadeWheel> made_wheel(const Case& c, const LevelSet<dim>& shape);
 
+/// The side face that pictures of a wheel in 3D show: that at z = width, unless it is printed on this one.
+SideFace shown_side_face(const Case& c);
+
 }  // namespace wheelwright

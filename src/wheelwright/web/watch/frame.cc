@@ -16,6 +16,7 @@
 #include "wheelwright/quantities/analysis/rolling_analysis.h"
 #include "wheelwright/quantities/analysis/shape_summary.h"
 #include "wheelwright/run/commands/command_json.h"
+#include "wheelwright/run/results/making.h"
 #include "wheelwright/run/results/run_title.h"
 #include "wheelwright/shape/evolution/volume.h"
 #include "wheelwright/web/watch/products.h"
@@ -109,6 +110,7 @@ Json wheel_json(const WatchedShape<dim>& shape) {
             {"hole_inner_radius_m", room.inner},
             {"hole_outer_radius_m", room.outer},
             {"cell_m", grid.resolution()},
+            {"shows_smaller_z", shown_side_face(*shape.source) == SideFace::smaller_z},
             {"stands_on_ground", shape.source->contact.with == Counterpart::ground}};
   if (const LayerCircles layers = layer_circles(materials<dim>(*shape.source)); !layers.empty())
     json["layers"] = {{"radii_m", layers.radii}, {"names", layers.names}};

@@ -210,7 +210,8 @@ const parts = (() => {
     scene.add(key);
     const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
     camera.position.z = 5;
-    const view = { yaw: -0.6, pitch: 0.25, size: 1 };
+    const usual = { yaw: run.shows_smaller_z ? Math.PI - 0.6 : -0.6, pitch: 0.25, size: 1 };
+    const view = { ...usual };
     const draw = () => {
       const ratio = window.devicePixelRatio || 1, width = Math.min(1600, Math.round(canvas.clientWidth * ratio)) || 600,
             height = Math.round(width * (canvas.clientHeight / canvas.clientWidth || 1));
@@ -262,7 +263,7 @@ const parts = (() => {
       draw();
     };
     const fit = () => {
-      Object.assign(view, { yaw: -0.6, pitch: 0.25, size: 1 });
+      Object.assign(view, usual);
       draw();
     };
     canvas.tabIndex = 0;
