@@ -144,6 +144,15 @@ TEST(ComparisonTable, MarksChangesThatTheErrorsMayExplain) {
 
 using Groups = std::vector<std::vector<std::size_t>>;
 
+/// A harmonic that symmetry forbids is 0 but for rounding.
+TEST(ComparisonTable, ShowsRoundingAsZero) {
+  const ComparedRow harmonic{"harmonic", {3e-13, 1e-9}, {std::nullopt, 6e-5}};
+  const std::string table = comparison_table({"a", "b"}, {harmonic});
+  EXPECT_EQ(table.find("e-"), std::string::npos);
+  const ComparedRow small{"small", {3e-9, 1e-9}, {std::nullopt, 6e-5}};
+  EXPECT_NE(comparison_table({"a", "b"}, {small}).find("3e-09"), std::string::npos);
+}
+
 TEST(WithinErrors, GroupsAreThoseOfWhichAnyTwoAreUndecided) {
   const auto groups = [](std::vector<EstimatedValue> values) { return groups_within_errors(values); };
   EXPECT_EQ(groups({{1, 0.1}, {1.3, 0.1}}), Groups{});

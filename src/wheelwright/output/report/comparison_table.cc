@@ -62,8 +62,18 @@ std::string text(const UndecidedNumbers& undecided, const std::vector<std::strin
   return text;
 }
 
+/// Whether a value without an error is that of rounding, by the errors of the others in its row: for example
+/// a harmonic that symmetry forbids.
+bool is_rounding(const ComparedRow& row, std::size_t wheel) {
+  constexpr double share = 1e-6;
+  double largest = 0;
+  for (const auto& error : row.errors) largest = std::max(largest, error.value_or(0));
+  return !error_of(row, wheel) && std::abs(**row.values[wheel]) < share * largest;
+}
+
 std::string value_text(const ComparedRow& row, std::size_t wheel) {
   if (!is_known(row.values[wheel])) return "-";
+  if (is_rounding(row, wheel)) return "0";
   return text_with_error(**row.values[wheel], error_of(row, wheel).value_or(0), row.kind);
 }
 
