@@ -56,8 +56,9 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
   const LevelSet<dim>& given = given_by_case.initial;
   const auto before = wheel_state(run, "initial", given, before_objective ? *before_objective : not_computed,
                                   material_measure(given));
-  const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
-                                 last.evaluation.function("objective").value, last.measure);
+  const auto after =
+      wheel_state(run, fmt::format("after {} shape{}", last.iteration, last.iteration == 1 ? "" : "s"),
+                  last.shape, last.evaluation.function("objective").value, last.measure);
   write_for_workshop(run, last.shape, after.boundary);
   const Quantity minimized = minimized_quantity(run.study.source);
   const std::string load = load_text(run.study.model()), sum = sum_over_load_cases(run.study.source);

@@ -162,7 +162,7 @@
       context.setLineDash([]);
       const value = run.outlines[i].objective * run.objective.factor;
       caption.textContent = `Shape ${run.outlines[i].shape} of ${run.outlines[last].shape}: objective [${run.objective.unit}] ${shown(value)}; ` +
-        `dashed: the edges of the initial holes.${layersText(run.layers)}`;
+        `dashed: the edges of the initial holes.${run.dimension === 3 ? " Section in the middle of the width." : ""}${layersText(run.layers)}`;
     };
     slider.addEventListener("input", draw);
     const figure = element("figure", {}, element("div", { class: "picture" }, canvas),
