@@ -612,6 +612,16 @@ TEST_F(CommandLine, UnmetExpectationExitsWithCode7) {
   EXPECT_EQ(resume("wrong"), exit_unexpected);
 }
 
+TEST_F(CommandLine, WithoutVtuNoFieldsAreWritten) {
+  std::ofstream(folder() / "plain.toml") << case_that_expects(1, "1") + "[output]\nvtu_every = 0\n";
+  wheelwright(fmt::format("run {} --output {}", in_folder("plain.toml"), in_folder("plain")));
+  ASSERT_TRUE(std::filesystem::exists(folder() / "plain/comparison.svg"));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / "plain")) {
+    const std::string extension = entry.path().extension().string();
+    EXPECT_TRUE(extension != ".vtu" && extension != ".pvd") << entry.path();
+  }
+}
+
 /// Two rings of holes with thin spokes between them, on a coarse grid.
 std::string case_with_thin_spokes(const char* volume, double step) {
   return fmt::format(
