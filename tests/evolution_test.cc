@@ -541,6 +541,33 @@ TEST(Evolver, MovesAShapeOfAGivenMeasureByNothingIfItIsToMoveByNothing) {
   }
 }
 
+/// The largest change of a drawn level set with holes up to a band, when its measure is to change by a
+/// relative 1e-4, in units of the shift of its whole boundary that would do it; NaN if that fails.
+template <int dim>
+double shift_for_a_small_change(const PolarGrid<dim>& grid, double factor) {
+  const Lattice<dim> lattice(grid, 2);
+  EvolutionOptions options{.velocity = {ExtensionKind::h1, 2}, .bands = {{0.01, 1}, {0.012, 1}}};
+  options.space = ShapeSpace::spline;
+  const Evolver<dim> evolver(lattice, options);
+  const std::vector<Circle> holes{{0.255, 0.15, 0.05}};  // 5 mm into the band
+  const LevelSet<dim> psi = evolver.keep_bands(make_level_set<dim>(lattice, holes));
+  const double measure = material_measure(psi);
+  double boundary = 0;
+  for (const auto& sample : boundary_samples<dim>(psi)) boundary += sample.weight;
+  const auto shifted = evolver.with_measure(psi, factor * measure, boundary);
+  if (!shifted) return NAN;
+  EXPECT_NEAR(shifted->measure, factor * measure, 1e-6 * measure);
+  return largest_difference(psi.values, shifted->shape.values) * boundary / (std::abs(factor - 1) * measure);
+}
+
+// If the measure jumped at the shift 0, shapes just above or below their target could not be started from.
+TEST(Evolver, ShiftsDrawnShapesAtBandsByLittleIfTheirMeasureIsToChangeByLittle) {
+  for (const double factor : {1 - 1e-4, 1 + 1e-4}) {
+    EXPECT_LT(shift_for_a_small_change<2>({0.20, 0.34, 0.12, 12, {12, 16}}, factor), 2) << factor;
+    EXPECT_LT(shift_for_a_small_change<3>({0.20, 0.34, 0.12, 12, {12, 16, 3}}, factor), 2) << factor;
+  }
+}
+
 TEST(Evolver, RepairsShapesWithinTheSpaceOfItsMoves) {
   const Lattice<2> lattice = lattice_of(2);
   EvolutionOptions options{.velocity = {ExtensionKind::h1, 2}, .bands = {{0.01, 1}, {0.01, 1}}};

@@ -238,12 +238,13 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi
 }
 
 /// A spline is shifted by its coefficients, so that it remains one: bands clip them, and would clip nodes to
-/// another shape. A drawn level set changes like its spline.
+/// another shape. A drawn level set changes like its spline. The coefficients of one drawn up to a band
+/// exceed the band's: they are clipped before the shift too, or the measure would jump at the shift 0.
 template <int dim>
 ShapeOfShift<dim> Evolver<dim>::shifted(const LevelSet<dim>& psi) const {
   if (space_ != ShapeSpace::spline)
     return [&](double shift) { return bands_.keep(wheelwright::shifted<dim>(psi, bands_, shift)); };
-  const LevelSet<dim> coefficients = spline_coefficients(psi);
+  const LevelSet<dim> coefficients = bands_.keep_design(spline_coefficients(psi));
   return [this, &psi, coefficients, unmoved = spline_level_set(coefficients)](double shift) {
     if (shift == 0) return psi;
     LevelSet<dim> result =
