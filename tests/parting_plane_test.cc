@@ -4,6 +4,8 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/run/session/run.h"
 #include "wheelwright/run/study/parting_planes.h"
+#include "wheelwright/run/study/study.h"
+#include "wheelwright/shape/evolution/islands.h"
 
 // The parting plane of a moulded wheel, found from the first wheels of all planes.
 
@@ -68,6 +70,50 @@ TEST(PartingPlane, OfHolesThatFitAllMouldsIsTheMiddle) {
   ASSERT_TRUE(complete);
   EXPECT_EQ(complete->optimizer.parting, Parting::given);
   EXPECT_NEAR(*complete->optimizer.parting_plane, 0.016, 1e-15);
+}
+
+// A groove from which a mould that parts at 90 mm would cut the tread off, unless it is made shallower: at
+// the target's volume that wheel is the stiffest, but a run begins with the groove as it is drawn.
+TEST(PartingPlane, IsOneWithWhichARunCanBegin) {
+  const Case c = read(R"(
+[wheel]
+dimension = 3
+sectors = 16
+[load]
+mass = 300
+positions = 1
+camber = 3
+[contact]
+quadrature_points = 3
+[material]
+poissons_ratio = 0.4
+[[holes.groove]]
+inner_radius = 0.222
+outer_radius = 0.31
+depth = 0.033
+[volume]
+target = 0.7
+[grid]
+radial_cells = 10
+angular_cells = 128
+axial_cells = 4
+degree = 1
+tread_levels = 0
+[optimizer]
+made = "moulded"
+parting = "found"
+draft = 2
+rim_band = 0.014
+tread_band = 0.028
+)");
+  const auto rated = rated_parting_planes(c);
+  ASSERT_TRUE(rated) << rated.failure().detail;
+  for (const RatedPlane& plane : rated->planes) {
+    const auto attached =
+        without_islands<3>(initial_shape<3>(with_parting_plane(c, plane.z)), 1e-3);  // m^3: of any size
+    EXPECT_EQ(plane.fault.empty(), bool(attached)) << plane.z;
+  }
+  EXPECT_NEAR(rated->planes[rated->best].z, 0.06, 1e-12);
 }
 
 TEST(PartingPlane, IsFoundOnlyInAMouldWithAnObjectiveThatDiffers) {

@@ -9,6 +9,7 @@
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/run/study/study.h"
 #include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/islands.h"
 #include "wheelwright/shape/evolution/volume.h"
 
 namespace wheelwright {
@@ -24,14 +25,26 @@ double compared_measure(const Case& c, const Study<3>& study) {
   return is_bound ? *bound->equals * per_fraction : first;
 }
 
+/// Why a run cannot begin with a plane's wheel as it is drawn. If the target is in reach, it does not do
+/// that.
+std::optional<Failure> fault_as_drawn(const Study<3>& study, const LevelSet<3>& drawn) {
+  const OptimizerOptions& options = study.optimizer;
+  const double whole = sector_measure<3>(study.grid());
+  const double far = options.measure_rate * whole;
+  if (options.target_measure && std::abs(*options.target_measure - material_measure(drawn)) <= far) return {};
+  const auto attached = without_islands<3>(drawn, options.largest_island * whole);
+  return attached ? std::nullopt : std::optional(attached.failure());
+}
+
 /// The first wheel of a plane at this volume.
-Expected<LevelSet<3>> first_wheel(const Case& c, double measure, int points) {
+Expected<LevelSet<3>> first_wheel(const Case& c, const Study<3>& study, double measure) {
   const LevelSet<3> drawn = initial_shape<3>(c);
+  if (auto fault = fault_as_drawn(study, drawn)) return *std::move(fault);
   const ProtectedBands<3> limits(drawn.lattice, bands(c));
   double boundary = 0;
   for (const SurfaceSample<3>& sample : boundary_samples(drawn)) boundary += sample.weight;
   auto shape = with_measure<3>([&](double shift) { return limits.keep(shifted<3>(drawn, limits, shift)); },
-                               measure, boundary, points);
+                               measure, boundary, study.model().points_in_cut_cells());
   if (!shape) return shape.failure();
   return std::move(shape->shape);
 }
@@ -92,7 +105,7 @@ Expected<RatedPlanes> rated_parting_planes(const Case& c, const PlaneSearch& sea
   std::optional<Failure> first_fault;
   for (int k = 0; k <= c.grid.axial_cells; ++k) {
     const double z = c.wheel.width * k / c.grid.axial_cells;
-    const auto shape = first_wheel(with_parting_plane(c, z), measure, study->model().points_in_cut_cells());
+    const auto shape = first_wheel(with_parting_plane(c, z), *study, measure);
     const auto objective =
         shape ? objective_of(*study, *shape, search.interrupt) : Expected<double>(shape.failure());
     if (!objective && objective.failure().reason == FailureReason::interrupted) return objective.failure();
