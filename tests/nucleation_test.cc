@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
 
 #include "tests/run_support.h"
 #include "tests/support.h"
@@ -341,11 +342,12 @@ TEST_F(NucleationRun, SlowThatDoesNotPayIsUndone) {
 }
 
 /// Stops a run after some accepted shape.
-class StopAt : public Observer<2> {
+template <int dim>
+class StopAt : public Observer<dim> {
  public:
   StopAt(CommandQueue& commands, int trials) : commands_(commands), left_(trials) {}
-  void operator()(const Event<2>& event, const RunView<2>&) override {
-    const auto* done = std::get_if<TrialDone<2>>(&event);
+  void operator()(const Event<dim>& event, const RunView<dim>&) override {
+    const auto* done = std::get_if<TrialDone<dim>>(&event);
     if (done && done->trial.verdict == Verdict::accepted && left_-- == 0) commands_.push(Stop{});
   }
 
@@ -354,38 +356,83 @@ class StopAt : public Observer<2> {
   int left_;
 };
 
-TEST_F(NucleationRun, SlowContinuesIdenticallyAfterEveryStop) {
-  const std::string text = wheel("", "converged", 45);
-  run(text, "straight");
-  const auto rows = split(history("straight"), '\n');
-  std::vector<int> stops{0, 1};
+/// The numbers of accepted shapes before, at and after those at which holes appear or are undone, and the
+/// first two, as far as one follows.
+std::set<int> shapes_to_stop_at(const std::string& history) {
+  std::set<int> stops{0, 1};
   int accepted = 0;
-  for (const std::string& row : rows) {
-    const auto cells = split(row, ',');
-    if (cells.size() < 3 || cells[2] != "1") continue;
-    if (row.find("nucleation") != std::string::npos)
-      for (const int k : {accepted - 1, accepted, accepted + 1}) stops.push_back(k);
+  for (const auto& row : accepted_rows(history)) {
+    if (tells(row, "nucleation")) stops.insert({accepted - 1, accepted, accepted + 1});
     ++accepted;
   }
-  for (const int stop : stops) {
-    if (stop < 0 || stop + 1 >= accepted) continue;
+  std::erase_if(stops, [&](int stop) { return stop < 0 || stop + 1 >= accepted; });
+  return stops;
+}
+
+template <int dim>
+void expect_to_continue_identically(const std::string& text, const fs::path& folder) {
+  const Case c = *parse_case(text, "case.toml").value;
+  const auto to_the_end = [](auto run) {
+    ASSERT_TRUE(run);
+    CommandQueue commands;
+    run->execute(commands);
+  };
+  to_the_end(wheelwright::Run<dim>::begin(c, folder / "straight"));
+  const auto history = [&](const char* name) { return content(folder / name / "history.csv"); };
+  const std::string straight = history("straight");
+  EXPECT_TRUE(straight.find("nucleation of") != std::string::npos);
+  for (const int stop : shapes_to_stop_at(straight)) {
     SCOPED_TRACE(fmt::format("stopped after {} accepted shapes", stop + 1));
-    fs::remove_all(folder() / "stopped");
-    const Case c = *parse_case(text, "case.toml").value;
+    fs::remove_all(folder / "stopped");
     {
-      auto first = wheelwright::Run<2>::begin(c, folder() / "stopped");
+      auto first = wheelwright::Run<dim>::begin(c, folder / "stopped");
       CommandQueue commands;
-      first->add(std::make_unique<StopAt>(commands, stop));
+      first->add(std::make_unique<StopAt<dim>>(commands, stop));
       EXPECT_EQ(first->execute(commands).reason, StopReason::stop_requested);
     }
-    auto second = wheelwright::Run<2>::resume(c, folder() / "stopped");
-    ASSERT_TRUE(second);
-    CommandQueue commands;
-    second->execute(commands);
-    EXPECT_EQ(without_times(history("stopped")), without_times(history("straight")));
-    EXPECT_EQ(content(folder() / "stopped" / "shape.levelset"),
-              content(folder() / "straight" / "shape.levelset"));
+    to_the_end(wheelwright::Run<dim>::resume(c, folder / "stopped"));
+    EXPECT_EQ(without_times(history("stopped")), without_times(straight));
+    EXPECT_EQ(content(folder / "stopped/shape.levelset"), content(folder / "straight/shape.levelset"));
   }
+}
+
+TEST_F(NucleationRun, SlowContinuesIdenticallyAfterEveryStop) {
+  expect_to_continue_identically<2>(wheel("", "converged", 45), folder());
+}
+
+TEST_F(NucleationRun, SlowIn3DContinuesIdenticallyAfterEveryStop) {
+  expect_to_continue_identically<3>(R"(
+[wheel]
+dimension = 3
+sectors = 16
+[load]
+mass = 300
+positions = 1
+[contact]
+quadrature_points = 3
+[material]
+poissons_ratio = 0.4
+[volume]
+target = 0.6614
+rate = 0.06
+[grid]
+radial_cells = 10
+angular_cells = 128
+axial_cells = 4
+degree = 1
+tread_levels = 0
+[optimizer]
+nucleation = "converged"
+rim_band = 0.014
+tread_band = 0.028
+tolerance = 1e-3
+iterations = 12
+[output]
+folder = "run"
+vtu_every = 0
+checkpoint_every = 1
+)",
+                                    folder());
 }
 
 TEST(NucleationCase, IsRefusedWhereTheEffectOfHolesIsNotKnown) {

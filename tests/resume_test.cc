@@ -143,9 +143,9 @@ control = "paper"
                                   5);
 }
 
-// The wheel with its width, with holes that change along it.
-TEST_F(Resume, WheelIn3DContinuesIdentically) {
-  std::string text = small_case_of_any_width(3, R"([material]
+/// The wheel with its width.
+std::string small_case_in_3d(int iterations) {
+  std::string text = small_case_of_any_width(iterations, R"([material]
 poissons_ratio = 0.3
 [contact]
 quadrature_points = 2
@@ -155,8 +155,27 @@ quadrature_points = 2
   };
   replace("[wheel]\n", "[wheel]\ndimension = 3\n");
   replace("radial_cells = 8\n", "radial_cells = 8\naxial_cells = 2\ndegree = 1\n");
-  expect_the_same_from_every_stop(text, 3);
+  return text;
+}
+
+// With holes that change along the width.
+TEST_F(Resume, WheelIn3DContinuesIdentically) {
+  expect_the_same_from_every_stop(small_case_in_3d(3), 3);
   EXPECT_TRUE(fs::exists(folder() / "straight/run/pressures_final.csv"));
+}
+
+// The wheel leans, so that the parting plane is not in the middle.
+TEST_F(Resume, AFoundPartingPlaneContinuesIdentically) {
+  std::string text = small_case_in_3d(2);
+  for (const auto& [section, keys] :
+       {std::pair<std::string, std::string>{"[load]\n", "camber = 3\n"},
+        {"[optimizer]\n", "made = \"moulded\"\nparting = \"found\"\ndraft = 2\n"}})
+    text.insert(text.find(section) + section.size(), keys);
+  expect_the_same_from_every_stop(text, 2);
+  const auto c = read_case((folder() / "straight/run/case.toml").string());
+  ASSERT_TRUE(c.value);
+  EXPECT_EQ(c.value->optimizer.parting, Parting::given);
+  EXPECT_NE(c.value->optimizer.parting_plane, 0.5 * c.value->wheel.width);
 }
 
 // On the way to the target, at it, and after it: 81 % of the ring become 75 % in four shapes.
