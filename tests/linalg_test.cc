@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "wheelwright/base/parallel.h"
 #include "wheelwright/linalg/column_basis.h"
 #include "wheelwright/linalg/cyclic_chain.h"
 #include "wheelwright/linalg/lu_factor.h"
@@ -168,6 +169,45 @@ double longest_chain(int n, const std::vector<std::pair<int, int>>& couplings, i
 
 // One path is all of a tridiagonal matrix, and a third of three that meet in a trailing unknown. Where two
 // paths meet in a third, and so do two others, a chain is two of six paths.
+// One front of 300 columns and 1300 rows below, whose blocks the threads share: its condensed matrix is B -
+// A^T K^-1 A, with the same bytes on one thread and on four.
+TEST(PartialCholeskyTest, LargeFrontsAreCondensedOnAnyNumberOfThreads) {
+  constexpr int n = 300, n_trailing = 1300, size = n + n_trailing;
+  std::mt19937 random(3);
+  Matrix dense(size, size);
+  SparseSymmetric matrix;
+  matrix.size = size;
+  matrix.column_start = {0};
+  for (int j = 0; j < size; ++j) {
+    for (int i = j; i < size; ++i) {
+      const double value = i == j ? size : static_cast<double>(random() % 1000) / 1000;
+      dense(i, j) = dense(j, i) = value;
+      matrix.rows.push_back(i);
+      matrix.values.push_back(value);
+    }
+    matrix.column_start.push_back(static_cast<int>(matrix.rows.size()));
+  }
+  std::vector<int> order(size);
+  std::iota(order.begin(), order.end(), 0);
+  const auto condensed_on = [&](int n_threads) {
+    const ThreadLimit limit(n_threads);
+    auto factor = PartialCholesky::factor(matrix, 1, order, n_trailing);
+    EXPECT_LT(factor->longest_chain_flops(), 0.5 * factor->factor_flops());
+    return factor->release_schur();
+  };
+  const Matrix one = condensed_on(1);
+  EXPECT_EQ(one.entries(), condensed_on(4).entries());
+  Matrix interior = block(dense, 0, 0, n, n), solved = block(dense, 0, n, n, n_trailing),
+         expected = block(dense, n, n, n_trailing, n_trailing);
+  ASSERT_TRUE(cholesky(interior));
+  cholesky_solve(interior, solved);
+  multiply(-1, block(dense, n, 0, n_trailing, n), Op::none, solved, Op::none, 1, expected);
+  double error = 0;
+  for (size_t k = 0; k < one.entries().size(); ++k)
+    error = std::max(error, std::abs(one.entries()[k] - expected.entries()[k]));
+  EXPECT_LT(error, 1e-14 * size);
+}
+
 TEST(PartialCholeskyTest, TheLongestChainIsThatOfTheTree) {
   constexpr int n = 60;
   std::vector<std::pair<int, int>> chain, three, tree;

@@ -74,6 +74,20 @@ class SymbolicFactor {
 /// Subtrees of the elimination tree with a smaller share of the work are eliminated by one thread.
 constexpr double worth_sharing = 0.02;
 
+/// Rows below the diagonal block of a large front that one thread does, and columns and rows of a tile of its
+/// update: the same for any number of threads. Smaller ones would take more time on one thread.
+constexpr int rows_together = 256, tile_rows = 1024;
+constexpr double large_front = 3e8;  // flops
+
+/// Whether the threads share a front with so many rows below its diagonal block.
+bool is_shared(int n_below, double flops) { return n_below > rows_together && flops > large_front; }
+
+/// The flops of a shared front that one thread does: its diagonal block, one block of rows and one tile.
+double longest_chain_of_shared(double n_columns, double n_below) {
+  const double n = n_columns, rows = std::min<double>(tile_rows, n_below);
+  return n * n * n / 3 + rows_together * n * n + 2 * rows_together * rows * n;
+}
+
 /// Number of vectors that a sweep processes together.
 constexpr int sweep_block = 24;
 
@@ -259,10 +273,43 @@ class PartialCholesky::Numbers {
     }
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, l, stride) != 0) return false;
     if (m == 0) return true;
+    if (is_shared(m, node.flops())) {
+      eliminate_below_in_parallel(n, m, stride, l, update);
+      return true;
+    }
     cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, m, n, 1, l, stride, l + n,
                 stride);
     cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, m, n, -1, l + n, stride, 1, update.data(), m);
     return true;
+  }
+
+  /// The `m` rows below a factored diagonal block and their update, in tiles.
+  static void eliminate_below_in_parallel(int n, int m, int stride, double* l, Matrix& update) {
+    struct Tile {
+      int column, n_columns, row, n_rows;
+    };
+    std::vector<Tile> tiles;
+    for (int j = 0; j < m; j += rows_together) {
+      const int columns = std::min(rows_together, m - j);
+      tiles.push_back({j, columns, j, columns});
+      for (int i = j + columns; i < m; i += tile_rows)
+        tiles.push_back({j, columns, i, std::min(tile_rows, m - i)});
+    }
+    parallel_for((m + rows_together - 1) / rows_together, [&](int block) {
+      const int first = block * rows_together;
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit,
+                  std::min(rows_together, m - first), n, 1, l, stride, l + n + first, stride);
+    });
+    parallel_for(static_cast<int>(tiles.size()), [&](int k) {
+      const Tile& tile = tiles[k];
+      const double *rows = l + n + tile.row, *columns = l + n + tile.column;
+      double* to = update.column(tile.column) + tile.row;
+      if (tile.row == tile.column)
+        cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, tile.n_rows, n, -1, rows, stride, 1, to, m);
+      else
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, tile.n_rows, tile.n_columns, n, -1, rows, stride,
+                    columns, stride, 1, to, m);
+    });
   }
 
   PartialCholesky& factor_;
@@ -324,7 +371,11 @@ double PartialCholesky::longest_chain_flops() const {
   }
   for (size_t s = 0; s < n; ++s) {
     const Supernode& node = supernodes()[s];
-    chain[s] = work[s] < worth_sharing * total_work ? flops[s] : chain[s] + node.flops();
+    chain[s] = work[s] < worth_sharing * total_work
+                   ? flops[s]
+                   : chain[s] + (is_shared(node.n_below, node.flops())
+                                     ? longest_chain_of_shared(node.n_columns, node.n_below)
+                                     : node.flops());
     double& above = node.parent >= 0 ? chain[node.parent] : longest;
     above = std::max(above, chain[s]);
   }
