@@ -221,7 +221,9 @@ TEST(Starts, OfATurnedWheelAreBodiesOfRevolution) {
   for (const Start& start : valid_solid_starts(c, 1, 6)) {
     texts.insert(start.text);
     EXPECT_FALSE(start.source.holes.grooves.empty());
-    EXPECT_EQ(start.source.holes, Holes{.grooves = start.source.holes.grooves}) << start.text;
+    Holes only_grooves;
+    only_grooves.grooves = start.source.holes.grooves;
+    EXPECT_EQ(start.source.holes, only_grooves) << start.text;
     EXPECT_EQ(start.source.shapes, Shapes{}) << start.text;
     EXPECT_EQ(start.source.grid.angular_cells, c.grid.angular_cells);
     EXPECT_EQ(start.source.wheel.sectors, c.wheel.sectors);

@@ -125,7 +125,7 @@ std::string collect(const std::string& folder, const DesignPlan& plan) {
 DesignPlan exploration(const HeldCase& held, int starts, std::uint64_t seed, bool keeps_sectors,
                        const std::vector<std::string>& words) {
   const auto quantities = chosen(held.value, words);
-  return {.name = "exploration",
+  return {.name = "explore",
           .title = run_title(held.value),
           .has_previews = true,
           .quantities = quantities,

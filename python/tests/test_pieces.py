@@ -16,7 +16,7 @@ import wheelwright as ww
 from wheelwright import _core, _pieces
 from wheels import small
 
-TABLES = ("exploration.html", "exploration.csv", "exploration.json", "pareto.svg")
+TABLES = ("explore.html", "explore.csv", "explore.json", "pareto.svg")
 SPAWN = multiprocessing.get_context("spawn")
 
 

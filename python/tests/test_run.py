@@ -186,7 +186,7 @@ class Designs(Folder):
         alone = ww.explore(case, self.folder / "alone", starts=4)
         shared = ww.explore(case, self.folder / "shared", starts=4, executor=executor, workers=3)
         self.assertEqual(shared, alone)
-        for name in ("exploration.html", "exploration.csv", "pareto.svg"):
+        for name in ("explore.html", "explore.csv", "pareto.svg"):
             self.assertEqual((self.folder / "shared" / name).read_bytes(), (self.folder / "alone" / name).read_bytes())
 
     def test_are_shared_by_processes(self):
@@ -195,10 +195,14 @@ class Designs(Folder):
 
     @unittest.skipUnless(importlib.util.find_spec("distributed"), "python3-distributed is not installed")
     def test_are_shared_by_workers_of_dask(self):
-        from distributed import Client
+        from distributed import Client, get_task_stream
 
-        with Client(n_workers=3, threads_per_worker=1, dashboard_address=None) as client:
+        with (
+            Client(n_workers=3, threads_per_worker=1, dashboard_address=None) as client,
+            get_task_stream(client=client) as tasks,
+        ):
             self.expect_shared_equals_alone(client.get_executor())
+        self.assertEqual(len(tasks.data), 3)  # one for each worker
 
     def expect_only_unsaved_shapes_to_be_lost(self, call):
         """Kills the process of a run in its middle, and lets `call` go on. The rows of the history hold times, so that

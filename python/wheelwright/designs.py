@@ -14,7 +14,7 @@ from ._pieces import Client, DesignProgress, Settings, run_in_pieces
 from .case import Case
 
 Designs = dict[str, Any]
-"""The content of exploration.json or sweep.json: the designs in their order, with their numbers."""
+"""The content of explore.json or sweep.json: the designs in their order, with their numbers."""
 
 
 def explore(
@@ -111,12 +111,13 @@ def _run(folder: str | PathLike[str], plan: _core.DesignPlan, threads: int, work
 
 def _work_together(folder: str, threads: int, executor: Executor, workers: int) -> None:
     """Waits until one worker has ended all designs; raises what all workers raised, if none has."""
-    futures = [executor.submit(_work, folder, threads) for _ in range(workers)]
+    futures = [executor.submit(_work, folder, threads, number) for number in range(workers)]
     failures = [failure for future in futures if (failure := future.exception()) is not None]
     if len(failures) == len(futures):
         raise failures[0]
 
 
-def _work(folder: str, threads: int) -> None:
-    """Runs the designs of a plan in a worker process."""
+def _work(folder: str, threads: int, number: int) -> None:
+    """Runs the designs of a plan in a worker process. To Dask, tasks of equal arguments are one: they need a number."""
+    del number
     _core.run_plan(folder, _core.plan_in(folder), threads)

@@ -150,19 +150,20 @@ std::optional<Draft> draft_tapered_holes(const DraftSpace& space, const AxialSpa
   const Taper taper = draw_taper(across, random, narrow);
   const double largest = largest_size(space, rings), minimum = 0.5 * space.wall / narrow;
   if (largest <= minimum) return {};
-  return Draft{.text = n_rings == 1 ? fmt::format("{} {}", count, taper.holes)
-                                    : fmt::format("2 rings of {} {}", count, taper.holes),
-               .sectors = count,
-               .minimum = minimum,
-               .most = largest,
-               .draw = [rings, taper](Case& c, double size) {
-                 for (const RingDraft& ring : rings) {
-                   HoleTapered holes{
-                       .count = ring.count, .center_radius = ring.center_radius, .phase = ring.phase};
-                   for (const auto& [z, share] : taper.profile) holes.profile.push_back({z, share * size});
-                   c.holes.tapered.push_back(std::move(holes));
-                 }
-               }};
+  return Draft{
+      .text = n_rings == 1 ? fmt::format("{} {}", count, taper.holes)
+                           : fmt::format("2 rings of {} {}", count, taper.holes),
+      .sectors = count,
+      .minimum = minimum,
+      .most = largest,
+      .draw = [rings, taper](Case& c, double size) {
+        for (const RingDraft& ring : rings) {
+          HoleTapered holes{
+              .count = ring.count, .center_radius = ring.center_radius, .profile = {}, .phase = ring.phase};
+          for (const auto& [z, share] : taper.profile) holes.profile.push_back({z, share * size});
+          c.holes.tapered.push_back(std::move(holes));
+        }
+      }};
 }
 
 namespace {

@@ -62,10 +62,11 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
   write_for_workshop(run, last.shape, after.boundary);
   const Quantity minimized = minimized_quantity(run.study.source);
   const std::string load = load_text(run.study.model()), sum = sum_over_load_cases(run.study.source);
-  const std::string caption = !sum.empty()              ? sum
-                              : minimized == Quantity() ? fmt::format("sum over {} load positions, {}",
-                                                                      run.study.model().n_positions, load)
-                                                        : load;
+  const int n = run.study.model().n_positions;
+  const bool is_sum = minimized == Quantity() && n > 1;
+  const std::string caption = !sum.empty() ? sum
+                              : is_sum     ? fmt::format("sum over {} load positions, {}", n, load)
+                                           : load;
   write_atomically(
       run.folder / "comparison.svg",
       comparison_svg(run.study.grid(),
