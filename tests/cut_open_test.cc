@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "wheelwright/output/report/lit_wheel.h"
 #include "wheelwright/shape/geometry/shapes.h"
 
@@ -51,6 +53,29 @@ TEST(CutOpen, OnlyClosedCavitiesNeedIt) {
   EXPECT_FALSE(has_closed_cavities(material_surface(groove, 2, 2)));
   const auto ball = with_hole(ring(lattice), Sphere{0.27, 0.3, 0.06, 0.03});
   EXPECT_TRUE(has_closed_cavities(material_surface(ball, 2, 2)));
+}
+
+/// Faces go through cavities, of balls between the columns of the plain choice, and areas are those of
+/// sections.
+TEST(CutOpen, FacesMeetCavities) {
+  const PolarGrid<3> fine{0.20, 0.34, 0.12, 8, {14, 12, 6}};
+  const Lattice<3> lattice(fine, 2);
+  const double middle = 0.5 * fine.sector_angle();
+  const SurfaceMesh balls =
+      material_surface(with_hole(ring(lattice), Sphere{0.27, middle, 0.06, 0.03}), 2, 2);
+  const double full = 0.14 * 0.12, hollow = full - std::numbers::pi * 0.03 * 0.03;
+  const auto areas = section_areas(balls, fine);
+  for (int sector = 0; sector < 8; ++sector) {
+    EXPECT_NEAR(areas[12 * sector], full, 1e-4 * full);
+    EXPECT_NEAR(areas[12 * sector + 6], hollow, 1e-2 * full);
+  }
+  for (const SideFace shown : {SideFace::larger_z, SideFace::smaller_z}) {
+    const LitBody& faces = lit_wheel(balls, fine, shown)[1];
+    double area = 0;
+    for (const auto& [a, b, c] : faces.triangles)
+      area += 0.5 * norm(cross(faces.points[b] - faces.points[a], faces.points[c] - faces.points[a]));
+    EXPECT_NEAR(area, 2 * hollow, 2e-2 * full);
+  }
 }
 
 /// The camera looks at the front of a side face, and at both cut faces.

@@ -15,8 +15,10 @@ namespace wheelwright {
 
 namespace {
 
-/// Finds rings and tables of shapes that are not the same in all sectors.
+/// Finds rings and tables of shapes that are not the same in all sectors. Of a turned wheel, they are refused
+/// anyway.
 void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
+  if (c.optimizer.made == Manufacture::turned) return;
   const auto check = [&](CaseKey key, int count) {
     if (count % c.wheel.sectors == 0) return;
     found.push_back({{std::move(key), key_of(&Wheel::sectors)},

@@ -101,6 +101,25 @@ CutSurface cut_open(const SurfaceMesh& surface, const PolarGrid<3>& grid, const 
   return cut;
 }
 
+std::vector<double> section_areas(const SurfaceMesh& surface, const PolarGrid<3>& grid) {
+  constexpr double on_section = 1e-6;  // columns
+  const int columns = grid.ring_columns();
+  std::vector<double> areas(columns, 0.0);
+  for (const auto& triangle : surface.triangles) {
+    const std::array<Vec<3>, 3> p{surface.points[triangle[0]], surface.points[triangle[1]],
+                                  surface.points[triangle[2]]};
+    const int column = static_cast<int>(column_at(grid, (1.0 / 3) * (p[0] + p[1] + p[2]))) % columns;
+    for (int k = 0; k < 3; ++k) {
+      const Vec<3>&a = p[k], &b = p[(k + 1) % 3];
+      const double ahead = std::remainder(column_at(grid, 0.5 * (a + b)) - column, columns);
+      if (std::abs(ahead) > on_section) continue;
+      areas[column] += 0.5 * (std::hypot(a[0], a[1]) + std::hypot(b[0], b[1])) * (b[2] - a[2]);
+    }
+  }
+  for (double& area : areas) area = std::abs(area);
+  return areas;
+}
+
 bool has_closed_cavities(const SurfaceMesh& surface) {
   const auto report = check_surface(surface.points, surface.triangles);
   return report && report->cavities > 0;

@@ -26,6 +26,9 @@ struct CutSurface {
 /// material.
 CutSurface cut_open(const SurfaceMesh& surface, const PolarGrid<3>& grid, const ColumnRange& removed);
 
+/// The area of the material's section at the beginning of every column [m^2].
+std::vector<double> section_areas(const SurfaceMesh& surface, const PolarGrid<3>& grid);
+
 /// Whether the surface has pieces that enclose no material, of cavities inside of it.
 bool has_closed_cavities(const SurfaceMesh& surface);
 

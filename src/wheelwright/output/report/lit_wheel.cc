@@ -208,18 +208,31 @@ std::string peak_text(const DeformedPicture<3>& picture) {
       picture.is_peak_projected ? "; ring: its projection" : "");
 }
 
-/// The columns that are left out of a wheel that is cut open: from a little below its right side, as it is
-/// seen, to a little beyond its top, so that the camera sees both cut faces.
-ColumnRange columns_to_remove(const PolarGrid<3>& grid, SideFace shown) {
+/// The place near `column` where a section of the material is smallest: the nearest of those that meet
+/// cavities most.
+int most_hollow_column(const std::vector<double>& areas, int column) {
+  const int n = static_cast<int>(areas.size()), farthest = n / 12;
+  const auto area = [&](int at) { return areas[(at + n) % n]; };
+  int best = column;
+  for (int distance = 1; distance <= farthest; ++distance)
+    for (const int at : {column - distance, column + distance})
+      if (at > 0 && at < n && area(at) < (1 - 1e-6) * area(best)) best = at;
+  return best;
+}
+
+/// The columns that are left out of a wheel that is cut open: from about a little below its right side, as it
+/// is seen, to a little beyond its top, so that the camera sees both cut faces, and these meet cavities.
+ColumnRange columns_to_remove(const SurfaceMesh& surface, const PolarGrid<3>& grid, SideFace shown) {
   constexpr double below = std::numbers::pi / 12, beyond = std::numbers::pi / 12;
-  const int columns = grid.columns() * grid.n_sectors;
+  const int columns = grid.ring_columns();
   const double down = 0, right = down + 0.5 * std::numbers::pi, top = down + std::numbers::pi;
   const auto column_at = [&](double azimuth) {
     return static_cast<int>(std::lround(azimuth / grid.column_angle()));
   };
-  const int first = column_at(right - below), last = column_at(top + beyond);
-  if (shown == SideFace::larger_z) return {first, last};
-  return {columns - last, columns - first};
+  ColumnRange removed{column_at(right - below), column_at(top + beyond)};
+  if (shown == SideFace::smaller_z) removed = {columns - removed.last, columns - removed.first};
+  const std::vector<double> areas = section_areas(surface, grid);
+  return {most_hollow_column(areas, removed.first), most_hollow_column(areas, removed.last)};
 }
 
 }  // namespace
@@ -253,7 +266,7 @@ std::vector<LitBody> lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& g
   LayeredSurface layered = layered_surface(surface, grid, layers.radii);
   std::vector<LitBody> bodies;
   if (has_closed_cavities(surface)) {
-    const ColumnRange removed = columns_to_remove(grid, shown);
+    const ColumnRange removed = columns_to_remove(surface, grid, shown);
     CutSurface cut = cut_open(surface, grid, removed);
     bodies.push_back(body(surface.points, std::move(cut.triangles), blue));
     bodies.push_back(body(cut.face_points, std::move(cut.face_triangles), ochre));
