@@ -217,7 +217,7 @@ RollingModel<3> model_on(const PolarGrid<3>& grid) {
   return model;
 }
 
-/// What must not depend on how many sectors a wheel is divided into.
+/// Results that must not depend on the number of sectors.
 struct Rolled {
   double energy;
   RimMotion rim;

@@ -15,8 +15,8 @@ namespace wheelwright {
 
 namespace {
 
-/// Finds rings and tables of shapes that are not the same in all sectors. Of a turned wheel, they are refused
-/// anyway.
+/// Finds rings and tables of shapes that are not the same in all sectors. Turned wheels may have none of
+/// them at all.
 void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
   if (c.optimizer.made == Manufacture::turned) return;
   const auto check = [&](CaseKey key, int count) {

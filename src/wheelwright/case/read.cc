@@ -736,7 +736,7 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, c
     if (!is_given(key_of(&Contact::gamma_0))) result.contact.gamma_0 = gamma_0_of_large_strains;
   }
   if (result.optimizer.made == Manufacture::turned) {
-    // Of one column of cells each, with which a body of revolution is solved fastest (SectionStiffness).
+    // A body of revolution is solved fastest in sectors of one column of cells (SectionStiffness).
     if (!is_given(key_of(&Wheel::sectors))) result.wheel.sectors = result.grid.angular_cells;
     if (!is_given(key_of(&Load::positions)) && !needs_history(result)) result.load.positions = 1;
   }

@@ -31,8 +31,8 @@ class SectionStiffness {
   SparseSymmetric of_harmonic(const MirrorBasis& basis, std::complex<double> forward) const;
 
  private:
-  /// Of unknown `row` of a sector with unknown `column` <= row of the same sector, of the next and of the one
-  /// before.
+  /// Couples unknown `row` of a sector with unknown `column` <= row: that of the same sector, of the next one
+  /// and of the one before.
   struct Entry {
     int column, row, kind;
     double own = 0, ahead = 0, behind = 0;

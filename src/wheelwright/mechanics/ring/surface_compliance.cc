@@ -337,7 +337,7 @@ Work work_of_solving(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, 
           .longest_chain = of_harmonic};
 }
 
-/// Of the compliance of the outer line in one harmonic.
+/// Floating-point operations that the compliance of the outer line takes in one harmonic.
 template <int dim>
 double flops_of_outer_compliance(const CyclicStiffness<dim>& ring) {
   const double outer = ring.n_outer();

@@ -33,7 +33,7 @@ inline constexpr std::array divisions_of_cell{1, 2, 3, 4, 6, 8};
 /// Refused if no number suffices, if the surface does not bound a solid, or if there is no material.
 Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int map_degree, double tolerance);
 
-/// What to do if a surface deviates by more than the tolerance: by this much [m].
+/// Tells users what to do about a surface that deviates by more than the tolerance. `deviation` [m].
 std::string advice_on_tolerance(double deviation);
 
 /// As readable lines.

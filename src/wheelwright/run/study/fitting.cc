@@ -40,7 +40,7 @@ bool needs_no_support(const LevelSet<dim>& shape, const Case& c) {
   return false;
 }
 
-/// What is wrong with the given shape, and what is done.
+/// Tells what is wrong with the given shape, and how it is changed.
 template <int dim>
 std::string problem(const LevelSet<dim>& given, const Case& c) {
   switch (c.optimizer.made) {
@@ -85,8 +85,8 @@ std::string remedy_of_fitting(const Case& c) {
   if (!may_be_fitted(c) || !is_connected(shape_before_fitting<dim>(c))) return "";
   switch (c.optimizer.made) {
     case Manufacture::printed:
-      return "a hole goes on from the plate to the other side face, or it would need a roof: draw grooves in "
-             "the side face that is not on the plate (side, optimizer.stands_on), or use a larger "
+      return "a hole continues from the plate to the other side face, or it would need a roof: draw grooves "
+             "in the side face that is not on the plate (side, optimizer.stands_on), or use a larger "
              "optimizer.overhang with more grid.axial_cells";
     case Manufacture::moulded:
       return "a hole in the parting plane goes through the wheel, and the draft widens it: use shallower "
