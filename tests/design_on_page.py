@@ -59,17 +59,30 @@ class Page:
     def type(self, name, text):
         self.element(name).send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
 
+    def press_go(self, until_it_offers):
+        """Clicks the button that pauses and continues. A step that ends just before the click gives it the other meaning:
+        then it is clicked again."""
+        clicked = -math.inf
+
+        def offers():
+            nonlocal clicked
+            if self.text("go") == until_it_offers:
+                return True
+            if time.time() > clicked + 5:
+                self.element("go").click()
+                clicked = time.time()
+            return False
+
+        self.until(offers)
+
     def pause(self):
         """Also where the run waits because there is no better shape: it then waits through the next changes too."""
-        if self.text("go") == "Pause":
-            self.element("go").click()
-        self.until(lambda: self.text("go") == "Continue")
+        self.press_go(until_it_offers="Continue")
 
     def go_on(self):
         """From a pause, or from the end of a step. The page shows afterwards that the run went on."""
         self.pause()
-        self.element("go").click()
-        self.until(lambda: self.text("go") == "Pause")
+        self.press_go(until_it_offers="Pause")
 
     def stroke(self, tool, radii, azimuth, steps=6):
         """Draws with the mouse along a ray, at these shares of the outer radius."""
