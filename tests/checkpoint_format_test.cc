@@ -248,7 +248,7 @@ TEST(CheckpointFormat, RejectsImpossibleStates) {
   }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.iteration = -1; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.step = 0; }));
-  EXPECT_FALSE(accepts([](auto& c) { c.state.final_widths = static_cast<FinalWidths>(3); }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.final_widths = static_cast<FinalWidths>(4); }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.memory.pairs[1].change.pop_back(); }));
   EXPECT_FALSE(accepts([&](auto& c) { c.state.memory.multipliers[0] = nan; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.mean_observations.entries().pop_back(); }));

@@ -83,7 +83,8 @@ TEST_P(CleanEnd, HasWallsAndGapsOfACell) {
   const cad::Clearances& clearances = measured->clearances;
   EXPECT_GT(clearances.wall->width, 0.95 * cell);
   EXPECT_GT(clearances.gap->width, 1.42 * cell);
-  EXPECT_TRUE(narrowest_places(course.last.shape, {.radius = 0.74 * cell}).empty());
+  const double radius = course.last.final_widths == FinalWidths::kept ? cell : 0.75 * cell;
+  EXPECT_TRUE(narrowest_places(course.last.shape, {.radius = 0.99 * radius}).empty());
   EXPECT_NE(course.last.final_widths, FinalWidths::impossible);
   EXPECT_NEAR(course.last.measure, course.last.target_measure, 1e-6 * course.last.target_measure);
   const auto value = [](const Evaluation<2>& evaluation) { return evaluation.function("objective").value; };
@@ -132,7 +133,7 @@ TEST(FinalWidths, AreRepairedOnceInASeparateShape) {
 }
 
 TEST(FinalWidths, ShapesThatHaveThemAreUnchanged) {
-  const Course course = course_of(case_text(start_named("Holes16On14x192"), 9));
+  const Course course = course_of(case_text(start_named("Holes16On14x192"), 9, "minimum_radius = 0\n"));
   EXPECT_EQ(course.last.final_widths, FinalWidths::kept);
   EXPECT_EQ(course.last.history_begin, 0);
   for (const auto& trial : course.trials) EXPECT_TRUE(trial.iteration == 0 || trial.step > 0);
@@ -202,7 +203,7 @@ TEST(FinalWidths, AreEnforcedFromTheStartForSmallHoles) {
                        .empty(),
                has_small_holes = 2 * start.radius < 1.8 * 1.5 * cell;
     const bool is_expected = has_widths && has_small_holes;
-    EXPECT_EQ(course.last.final_widths == FinalWidths::kept, is_expected) << start.name;
+    EXPECT_EQ(course.last.final_widths == FinalWidths::kept_with_sharper_corners, is_expected) << start.name;
     if (!is_expected) continue;
     ++n_small;
     for (const auto& trial : course.trials)

@@ -480,7 +480,7 @@ struct Optimizer {
   std::optional<double> minimum_wall,
       minimum_gap;  ///< [m]; absent: of one cell and 1.5 cells in the last part of a run
   std::optional<double>
-      minimum_radius;  ///< of internal corners [m]; absent: of 0.75 cells in the last part of a run
+      minimum_radius;  ///< of internal corners [m]; absent: of a cell in the last part of a run
   NucleationTime nucleation = NucleationTime::never;
   Manufacture made = Manufacture::free;
   std::optional<double> parting_plane;  ///< z of moulded wheels [m]; absent: in the middle of the width

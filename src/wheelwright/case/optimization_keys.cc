@@ -301,7 +301,7 @@ std::vector<Key<Optimizer>> feature_keys() {
       {.name = "minimum_radius",
        .unit = "m",
        .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_radius, between(0, 1000),
-                                               "any at first, 0.75 cells in the last part of a run"},
+                                               "any at first, 1 cell in the last part of a run"},
        .meaning = "minimum radius of internal corners, those of the holes, for milling cutters and low "
                   "stress; gaps are at least twice as wide; 0 means no minimum to the end"},
       {.name = "nucleation",

@@ -58,6 +58,9 @@ struct OptimizerOptions {
   /// done, shapes need not have them; then one is repaired, and all later shapes have them. If the first
   /// shape has holes only about two cells wide, and has these widths, they are enforced from the start.
   FeatureSize final_widths = {};
+  /// The radius of internal corners of a wheel whose shapes cannot have that of `final_widths`, e.g. because
+  /// its holes are smaller.
+  double sharper_radius = 0;
   /// The design lines of the evaluation's model, in its order. They need sequential quadratic steps, and a
   /// ShapeOptimizer that moves lines.
   std::vector<DesignLine> design_lines = {};
@@ -68,6 +71,7 @@ enum class FinalWidths {
   not_yet,
   kept,
   impossible,  ///< no shape that has them could be evaluated
+  kept_with_sharper_corners,
 };
 
 /// What the state remembers of an accepted shape.
@@ -145,11 +149,20 @@ struct Trial {
   StatesOfCases<dim> other_solutions = {};  ///< under the load cases that follow the first
 };
 
+/// The final widths that are enforced; 0 where none are.
+inline FeatureSize enforced_widths(const OptimizerOptions& options, FinalWidths final_widths) {
+  FeatureSize result = options.final_widths;
+  if (final_widths == FinalWidths::kept) return result;
+  if (final_widths != FinalWidths::kept_with_sharper_corners) return {};
+  result.radius = options.sharper_radius;
+  return result;
+}
+
 /// The minimum widths of the shapes after a state; `of_all`: those of every shape.
 template <int dim>
 FeatureSize widths_after(const FeatureSize& of_all, const OptimizerOptions& options,
                          const OptimizationState<dim>& state) {
-  return state.final_widths == FinalWidths::kept ? larger(of_all, options.final_widths) : of_all;
+  return larger(of_all, enforced_widths(options, state.final_widths));
 }
 
 /// Whether the measure is controlled exactly but has not reached its target yet.

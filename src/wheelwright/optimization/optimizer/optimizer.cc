@@ -32,6 +32,15 @@ bool needs_repair(const OptimizerOptions& options, const OptimizationState<dim>&
                                   !bound_constraints(state.evaluation).empty()));
 }
 
+/// What a repair enforces, in this order until a shape has it.
+template <int dim>
+std::vector<FinalWidths> widths_to_try(const OptimizerOptions& options, const OptimizationState<dim>& state) {
+  constexpr auto sharper = FinalWidths::kept_with_sharper_corners;
+  if (state.final_widths == sharper) return {sharper};
+  if (options.sharper_radius == options.final_widths.radius) return {FinalWidths::kept};
+  return {FinalWidths::kept, sharper};
+}
+
 template <int dim>
 bool was_interrupted(const Trial<dim>& trial) {
   return trial.failure && trial.failure->reason == FailureReason::interrupted;
@@ -165,38 +174,42 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
   return std::nullopt;
 }
 
-/// Gives the state's shape the final widths if it lacks them. The run continues from the best of the repaired
-/// shapes.
+/// Gives the state's shape the final widths if it lacks them, or if that fails, those with sharper corners.
+/// The run continues from the best of the repaired shapes.
 template <int dim>
 typename ShapeOptimizer<dim>::Repair ShapeOptimizer<dim>::repair_widths(OptimizationState<dim>& state,
                                                                         const Observer& observer) const {
-  OptimizationState<dim> next = state;
-  next.final_widths = FinalWidths::kept;
-  if (has_widths(state.shape, trials_.widths_after(next))) {
-    state = std::move(next);
-    return Repair::nothing;
+  for (const FinalWidths widths : widths_to_try(options_, state)) {
+    OptimizationState<dim> next = state;
+    next.final_widths = widths;
+    if (has_widths(state.shape, trials_.widths_after(next))) {
+      state = std::move(next);
+      return Repair::nothing;
+    }
+    const std::vector<Trial<dim>> trials = trials_.repaired(next);
+    if (std::ranges::any_of(trials, was_interrupted<dim>)) return Repair::interrupted;
+    for (std::size_t k = 0; k + 1 < trials.size(); ++k) observer(trials[k], state);
+    const bool is_possible = trials.back().verdict == Verdict::accepted;
+    if (is_possible) state = restarted(std::move(next), trials.back());
+    observer(trials.back(), state);
+    if (is_possible) return Repair::done;
   }
-  const std::vector<Trial<dim>> trials = trials_.repaired(next);
-  if (std::ranges::any_of(trials, was_interrupted<dim>)) return Repair::interrupted;
-  const bool is_possible = trials.back().verdict == Verdict::accepted;
-  if (!is_possible) state.final_widths = FinalWidths::impossible;
-  for (std::size_t k = 0; k + 1 < trials.size(); ++k) observer(trials[k], state);
-  if (is_possible) state = restarted(std::move(next), trials.back());
-  observer(trials.back(), state);
-  return is_possible ? Repair::done : Repair::nothing;
+  state.final_widths = FinalWidths::impossible;
+  return Repair::nothing;
 }
 
 /// A free descent splits holes that are only about two cells wide into slits that cannot be repaired: a shape
-/// with such holes keeps the final widths from the start, if it has them. Slightly sharper corners, which
-/// splines produce from small disks, are repaired first.
+/// with such holes keeps the final widths, with sharper corners, from the start, if it has them. Even sharper
+/// corners, which splines produce from small disks, are repaired first.
 template <int dim>
 FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const {
   constexpr double small = 1.8, almost = 2.0 / 3;  // of the final widths
-  const FeatureSize& widths = options_.final_widths;
+  constexpr auto kept = FinalWidths::kept_with_sharper_corners;
+  const FeatureSize widths = enforced_widths(options_, kept);
   const bool has_small_holes =
       widths.gap > 0 && !narrowest_places(shape, {.wall = 0, .gap = small * widths.gap}).empty();
   const FeatureSize needed{.wall = widths.wall, .gap = widths.gap, .radius = almost * widths.radius};
-  return has_small_holes && has_widths(shape, needed) ? FinalWidths::kept : FinalWidths::not_yet;
+  return has_small_holes && has_widths(shape, needed) ? kept : FinalWidths::not_yet;
 }
 
 /// Whether a search that keeps the final widths begins at a shape that does not have them: every shape after
@@ -204,8 +217,8 @@ FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const 
 template <int dim>
 bool ShapeOptimizer<dim>::begins_with_sharp_corners(const OptimizationState<dim>& state) const {
   constexpr double enough = 0.99;  // of the radius: repaired shapes have it up to a thousandth
-  return state.final_widths == FinalWidths::kept && state.history.size() == 1 &&
-         !has_widths(state.shape, {.radius = enough * options_.final_widths.radius});
+  return state.history.size() == 1 &&
+         !has_widths(state.shape, {.radius = enough * enforced_widths(options_, state.final_widths).radius});
 }
 
 template <int dim>

@@ -342,8 +342,8 @@ std::optional<OptimizationState<dim>> read_state(ByteReader& reader) {
   auto memory = read_memory(reader);
   auto history = read_history(reader);
   const int history_begin = count("the shape that the objectives begin with");
-  const auto final_widths = static_cast<FinalWidths>(
-      reader.integer(0, static_cast<int>(FinalWidths::impossible), "whether shapes have their final widths"));
+  const auto final_widths = static_cast<FinalWidths>(reader.integer(
+      0, static_cast<int>(FinalWidths::kept_with_sharper_corners), "whether shapes have their final widths"));
   if (!reader.ok()) return {};
   OptimizationState<dim> state{.shape = *std::move(shape),
                                .evaluation = std::move(evaluation),

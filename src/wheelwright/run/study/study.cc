@@ -319,18 +319,20 @@ EvolutionOptions evolution_options(const Case& c) {
   return options;
 }
 
-/// Unless the case gives them for all shapes: walls of a cell plus a margin, gaps of one and a half cells and
-/// internal corners of half that width. A given gap must have room for such corners. For level sets of degree
-/// 1, no radius and gaps of about a cell.
+/// The widths at the end, unless the case gives them for all shapes: walls of a cell plus a margin, gaps of
+/// one and a half cells, and internal corners with a radius of a cell, or of three quarters where the shape
+/// has no room for them. A given gap must have room for such corners. For level sets of degree 1, no radius
+/// and gaps of about a cell.
 template <int dim>
-FeatureSize final_widths(const Case& c) {
-  constexpr double wall = 1.05, round_gap = 1.5, gap_of_degree_1 = 1.12;
+void set_final_widths(OptimizerOptions& options, const Case& c) {
+  constexpr double wall = 1.05, round_gap = 1.5, gap_of_degree_1 = 1.12, radius = 1, sharper = 0.75;
   const Optimizer& o = c.optimizer;
-  const bool is_round = level_set_degree(c) > 1;
-  const double cell = polar_grid<dim>(c).resolution(), gap = (is_round ? round_gap : gap_of_degree_1) * cell;
-  return {.wall = o.minimum_wall ? 0 : wall * cell,
-          .gap = o.minimum_gap ? 0 : gap,
-          .radius = o.minimum_radius || !is_round ? 0 : 0.5 * std::min(gap, o.minimum_gap.value_or(gap))};
+  const bool is_round = level_set_degree(c) > 1, has_radius = is_round && !o.minimum_radius;
+  const double cell = polar_grid<dim>(c).resolution(), largest = 0.5 * o.minimum_gap.value_or(2 * cell);
+  options.final_widths = {.wall = o.minimum_wall ? 0 : wall * cell,
+                          .gap = o.minimum_gap ? 0 : (is_round ? round_gap : gap_of_degree_1) * cell,
+                          .radius = has_radius ? std::min(radius * cell, largest) : 0};
+  options.sharper_radius = has_radius ? std::min(sharper * cell, largest) : 0;
 }
 
 template <int dim>
@@ -349,7 +351,7 @@ OptimizerOptions optimizer_options(const Case& c) {
                             : holds_volume(c)                        ? MeasureControl::exact
                                                                      : MeasureControl::free;
   options.measure_rate = c.volume.rate;
-  if (!descends) options.final_widths = final_widths<dim>(c);
+  if (!descends) set_final_widths<dim>(options, c);
   const std::vector<int> lines = design_lines(c);
   const std::vector<DesignRadius> radii = design_radii(c);
   for (std::size_t k = 0; k < lines.size(); ++k)
