@@ -6,6 +6,7 @@
 
 #include "tests/deformations.h"
 #include "wheelwright/linalg/dense.h"
+#include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/shape/evolution/deformation_space.h"
 #include "wheelwright/shape/evolution/evolver.h"
 #include "wheelwright/shape/evolution/spline_level_set.h"
@@ -155,6 +156,36 @@ TEST(Widths, AreThoseWithinReach) {
     EXPECT_NEAR(widths[0].place[1], 0.13, 0.01);
     EXPECT_DOUBLE_EQ(largest_gap(widths), widths[0].gap());
   }
+}
+
+/// Walls between round holes, in several directions to the grid, are widened until the level set itself,
+/// which is what is analyzed and cut, has the minimum: its edges may lie hundredths of a cell inside those of
+/// the cubic interpolant. Measured on the curves that are fitted to the edges.
+TEST(Widths, AreThoseOfTheLevelSetItself) {
+  const auto lattice = lattice_of<2>();
+  const double h = lattice.grid().resolution(), radius = 0.018;
+  const Evolver<2> evolver(lattice, {.velocity = {},
+                                     .bands = {},
+                                     .space = ShapeSpace::spline,
+                                     .deformation = DeformationKind::normal_speed});
+  int n_widened = 0;
+  for (const double cells : {1.1, 1.3, 1.7})
+    for (const double direction : {0.0, 0.35, 0.7, 1.05, 1.4}) {
+      const double minimum = cells * h, distance = 2 * radius + 0.8 * minimum;
+      const Vec<2> first{0.25, 0.0},
+          second{0.25 + distance * std::cos(direction), distance * std::sin(direction)};
+      const auto psi = spline_level_set(spline_coefficients(make_level_set<2>(
+          lattice, std::vector<Circle>{{first[0], 0.1, radius},
+                                       {norm(second), 0.1 + std::atan2(second[1], second[0]), radius}})));
+      const auto made = evolver.measured(psi, {.wall = minimum});
+      ASSERT_TRUE(made) << made.failure().detail;
+      const double before = outline_measures(psi)->clearances.wall->width,
+                   after = outline_measures(made->shape)->clearances.wall->width;
+      EXPECT_GT(after, 0.995 * minimum) << cells << " cells, " << direction;
+      EXPECT_LT(after, 1.03 * std::max(minimum, before)) << cells << " cells, " << direction;
+      n_widened += before < 0.98 * minimum;
+    }
+  EXPECT_GE(n_widened, 8);
 }
 
 /// If only a corner is far too sharp, it is rounded, and a wall that hardly lacks anything gets its width but

@@ -271,7 +271,7 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const 
   for (int turn = 0;; ++turn) {
     auto shape = measure(std::move(psi));
     if (!shape || !size.any()) return shape;
-    const auto widths = narrow_widths(shape->shape, size, reach);
+    const auto widths = narrow_widths_of_level_set(shape->shape, size, reach);
     const double gap = largest_gap(widths);
     if (!std::isfinite(gap)) return Failure{FailureReason::not_finite, "a width of the shape"};
     const auto hole = gap <= enough ? small_hole(shape->shape, sampled * size.gap) : std::nullopt;
@@ -284,7 +284,7 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const 
     if (hole) return too_narrow<dim>(WidthKind::gap, hole->place, size.gap);
     if (turn == max_turns) {
       const auto& narrowest = *std::ranges::max_element(widths, {}, &Width<dim>::gap);
-      return too_narrow<dim>(narrowest.kind, narrowest.place, narrowest.minimum);
+      return too_narrow<dim>(narrowest.kind, narrowest.place, narrowest.minimum - narrowest.narrower);
     }
     auto wider = widened(shape->shape, widths, keeps_measure);
     if (!wider) return wider.failure();

@@ -11,6 +11,7 @@
 #include "wheelwright/shape/evolution/seeds.h"
 #include "wheelwright/shape/geometry/cell_map.h"
 #include "wheelwright/shape/geometry/mirror.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 namespace wheelwright {
 namespace {
@@ -159,6 +160,58 @@ std::optional<Chord<dim>> shortest_near(const CubicInterpolant<dim>& psi, const 
   return {};
 }
 
+/// How far the boundary of the level set itself lies inside a wall, or a gap, from a point of the boundary of
+/// its interpolant.
+template <int dim>
+double intrusion(const CubicInterpolant<dim>& psi, WidthKind kind, const Vec<dim>& point) {
+  const Vec<dim> polar_point = polar<dim>(cartesian_position<dim>(psi.lattice(), point));
+  return outward_of(kind) * value_at<dim>(psi.level_set(), polar_point) / norm(psi(point).gradient);
+}
+
+/// Directions along the sides of a chord, at right angles to it.
+template <int dim>
+std::vector<Vec<dim>> sideways(const Vec<dim>& across) {
+  const double in_plane = std::hypot(across[0], across[1]);
+  if constexpr (dim == 2) {
+    return {1 / in_plane * left_of(across)};
+  } else {
+    Vec<dim> first{0, 1, 0};
+    if (in_plane > 0) first = {-across[1] / in_plane, across[0] / in_plane, 0};
+    const Vec<dim> second = cross(across, first);
+    return {first, 1 / norm(second) * second};
+  }
+}
+
+/// A chord, and those beside it up to a cell away, where both sides reach so far.
+template <int dim>
+std::vector<Chord<dim>> with_chords_beside(const CubicInterpolant<dim>& psi, const Chord<dim>& chord) {
+  const Lattice<dim>& lattice = psi.lattice();
+  const Vec<dim> p = cartesian_position<dim>(lattice, chord[0]),
+                 q = cartesian_position<dim>(lattice, chord[1]);
+  std::vector<Chord<dim>> result{chord};
+  for (const auto& direction : sideways<dim>(q - p))
+    for (const double cells : {-1.0, -2.0 / 3, -1.0 / 3, 1.0 / 3, 2.0 / 3, 1.0}) {
+      const Vec<dim> shift = cells * lattice.grid().resolution() * direction;
+      const auto first = project_to_zero<dim>(psi, in_units<dim>(lattice, p + shift)),
+                 second = project_to_zero<dim>(psi, in_units<dim>(lattice, q + shift));
+      if (first && second) result.push_back({*first, *second});
+    }
+  return result;
+}
+
+template <int dim>
+double intrusion(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<dim>& chord) {
+  return intrusion<dim>(psi, kind, chord[0]) + intrusion<dim>(psi, kind, chord[1]);
+}
+
+template <int dim>
+double largest_intrusion(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<dim>& chord) {
+  double largest = 0;
+  for (const auto& beside : with_chords_beside<dim>(psi, chord))
+    largest = std::max(largest, intrusion<dim>(psi, kind, beside));
+  return largest;
+}
+
 /// The dependence on the coefficients of a value with the given derivatives with respect to the normal speeds
 /// of two boundary points.
 template <int dim>
@@ -177,11 +230,16 @@ Width<dim> width_of(const CubicInterpolant<dim>& psi, WidthKind kind, const Chor
   const Vec<dim> p = cartesian_position<dim>(psi.lattice(), chord[0]),
                  q = cartesian_position<dim>(psi.lattice(), chord[1]);
   const double outward = outward_of(kind);
+  double narrower = 0;
+  for (const auto& beside : with_chords_beside<dim>(psi, chord))
+    narrower = std::max(narrower, norm(q - p) - physical_distance<dim>(psi.lattice(), beside[0], beside[1]) +
+                                      intrusion<dim>(psi, kind, beside));
   return {.kind = kind,
           .value = norm(q - p),
           .minimum = 0,
           .place = polar<dim>(0.5 * (p + q)),
-          .slopes = dependence_on_ends<dim>(psi, chord, {outward, outward})};
+          .slopes = dependence_on_ends<dim>(psi, chord, {outward, outward}),
+          .narrower = narrower};
 }
 
 /// The ball that touches the boundary at a point with this outward normal and passes through another point.
@@ -204,12 +262,18 @@ TangentBall<dim> tangent_ball(const Vec<dim>& p, const Vec<dim>& normal, const V
   return ball;
 }
 
+template <int dim>
+struct WidthOfBall {
+  Width<dim> width;
+  Chord<dim> touched;  ///< the places that the ball touches
+};
+
 /// The same for a ball that touches seeds, if the sides are not parallel: the ball is adjusted to touch the
 /// boundary itself at the second place, if that is still opposite the first one. While its first end moves by
 /// v along the side's outward normal n there, and the second one by w along its own normal e, its radius r
 /// changes by dr with w + n.e (dr - v) - dr = 0, up to the turning of n.
 template <int dim>
-Width<dim> width_of_ball(const MedialBalls<dim>& medial, WidthKind kind, const MedialBall<dim>& given) {
+WidthOfBall<dim> width_of_ball(const MedialBalls<dim>& medial, WidthKind kind, const MedialBall<dim>& given) {
   const double outward = outward_of(kind);
   constexpr int turns = 3;
   constexpr double facing = -0.6;
@@ -228,12 +292,14 @@ Width<dim> width_of_ball(const MedialBalls<dim>& medial, WidthKind kind, const M
     second = *nearest;
   }
   const double slope = outward * 2 / (1 - ball.cosine);
-  return {.kind = kind,
-          .value = 2 * ball.radius,
-          .minimum = 0,
-          .place = polar<dim>(ball.centre),
-          .slopes = dependence_on_ends<dim>(medial.interpolant(), {medial.point(seed), second},
-                                            {-ball.cosine * slope, slope})};
+  const Chord<dim> touched{medial.point(seed), second};
+  return {.width = {.kind = kind,
+                    .value = 2 * ball.radius,
+                    .minimum = 0,
+                    .place = polar<dim>(ball.centre),
+                    .slopes = dependence_on_ends<dim>(medial.interpolant(), touched,
+                                                      {-ball.cosine * slope, slope})},
+          .touched = touched};
 }
 
 /// The width of a wall to a side face, which stays in its place.
@@ -245,18 +311,23 @@ Width<dim> width_to_face(const CubicInterpolant<dim>& psi, const FaceWall<dim>& 
           .value = wall.width,
           .minimum = 0,
           .place = polar<dim>(middle),
-          .slopes = displacement<dim>(psi, wall.point)};
+          .slopes = displacement<dim>(psi, wall.point),
+          .narrower = std::max(0.0, intrusion<dim>(psi, WidthKind::wall, wall.point))};
 }
 
 template <int dim>
 Width<dim> width_at(const MedialBalls<dim>& medial, const NarrowPlace<dim>& narrow) {
   if (narrow.to_face) return width_to_face<dim>(medial.interpolant(), *narrow.to_face);
-  const auto [seed, other] = narrow.ball.touched;
-  std::optional<Chord<dim>> chord;
-  if (narrow.gap > -critical)
-    chord = shortest_near<dim>(medial.interpolant(), {medial.point(seed), medial.point(other)});
-  return chord ? width_of<dim>(medial.interpolant(), narrow.kind, *chord)
-               : width_of_ball<dim>(medial, narrow.kind, narrow.ball);
+  const auto& psi = medial.interpolant();
+  const bool is_critical = narrow.gap > -critical;
+  if (is_critical) {
+    const auto [seed, other] = narrow.ball.touched;
+    const auto chord = shortest_near<dim>(psi, {medial.point(seed), medial.point(other)});
+    if (chord) return width_of<dim>(psi, narrow.kind, *chord);
+  }
+  auto [width, touched] = width_of_ball<dim>(medial, narrow.kind, narrow.ball);
+  if (is_critical) width.narrower = largest_intrusion<dim>(psi, narrow.kind, touched);
+  return width;
 }
 
 /// The radius at an internal corner; its minimum is not set.
@@ -331,6 +402,14 @@ std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSiz
 }
 
 template <int dim>
+std::vector<Width<dim>> narrow_widths_of_level_set(const LevelSet<dim>& psi, const FeatureSize& size,
+                                                   double reach) {
+  auto widths = narrow_widths(psi, size, reach);
+  for (auto& width : widths) width.minimum += width.narrower;
+  return widths;
+}
+
+template <int dim>
 double largest_gap(const std::vector<Width<dim>>& widths) {
   double largest = 0;
   for (const auto& width : widths)
@@ -348,9 +427,11 @@ std::vector<double> gap_load(const BoundaryMotion<dim>& motion, const Width<dim>
 }
 
 template decltype(narrow_widths<2>) narrow_widths<2>;
+template decltype(narrow_widths_of_level_set<2>) narrow_widths_of_level_set<2>;
 template decltype(largest_gap<2>) largest_gap<2>;
 template decltype(gap_load<2>) gap_load<2>;
 template decltype(narrow_widths<3>) narrow_widths<3>;
+template decltype(narrow_widths_of_level_set<3>) narrow_widths_of_level_set<3>;
 template decltype(largest_gap<3>) largest_gap<3>;
 template decltype(gap_load<3>) gap_load<3>;
 

@@ -22,6 +22,10 @@ struct Width {
   Vec<dim> place;  ///< of the middle of the ball, or of the corner: radius, azimuth[, axial], in the sector
                    ///< [m, rad[, m]]
   std::vector<Dependence> slopes;  ///< derivatives of the value by the coefficients of the shape's spline
+  /// By how much the wall or gap of the level set itself, a polynomial in each cell, is narrower than that of
+  /// its cubic interpolant, from which the value is, at most half a cell away along its sides; at least 0
+  /// [m].
+  double narrower = 0;
 
   /// The missing width relative to the minimum; negative if there is none. At corners, the relative excess of
   /// the curvature over the allowed one, which is approximately linear in the coefficients.
@@ -34,6 +38,11 @@ struct Width {
 /// only its seeds, so that values and derivatives agree.
 template <int dim>
 std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSize& size, double reach);
+
+/// The same, with minimum widths for the interpolant that give the level set itself those of `size`.
+template <int dim>
+std::vector<Width<dim>> narrow_widths_of_level_set(const LevelSet<dim>& psi, const FeatureSize& size,
+                                                   double reach);
 
 /// The missing part of the most critical width, relative; 0 if none, NaN if a width is not finite.
 template <int dim>
