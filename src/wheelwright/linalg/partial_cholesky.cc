@@ -79,6 +79,19 @@ constexpr double worth_sharing = 0.02;
 constexpr int rows_together = 256, tile_rows = 1024;
 constexpr double large_front = 3e8;  // flops
 
+/// Calls f(j) for every column; many columns are shared among the threads.
+template <class F>
+void for_columns(int n, const F& f) {
+  constexpr int together = 256;
+  if (n <= together) {
+    for (int j = 0; j < n; ++j) f(j);
+    return;
+  }
+  parallel_for((n + together - 1) / together, [&](int k) {
+    for (int j = k * together; j < std::min(n, (k + 1) * together); ++j) f(j);
+  });
+}
+
 /// Whether the threads share a front with so many rows below its diagonal block.
 bool is_shared(int n_below, double flops) { return n_below > rows_together && flops > large_front; }
 
@@ -169,7 +182,7 @@ class PartialCholesky::Numbers {
         children_(factor.supernodes().size()),
         work_(factor.supernodes().size()),
         updates_(factor.supernodes().size()) {
-    factor.values_.assign(factor.analysis_->n_values_, 0.0);
+    factor.values_.resize(factor.analysis_->n_values_);  // set by eliminate(), supernode by supernode
     factor.schur_ = Matrix(factor.n_trailing(), factor.n_trailing());
     for (size_t s = 0; s < children_.size(); ++s) {
       const Supernode& node = factor.supernodes()[s];
@@ -193,11 +206,13 @@ class PartialCholesky::Numbers {
       const Supernode& node = factor_.supernodes()[s];
       if (node.parent >= 0) continue;
       const int* rows = factor_.rows_below(node);
-      for (int j = 0; j < node.n_below; ++j)
+      for_columns(node.n_below, [&](int j) {
         for (int i = j; i < node.n_below; ++i) schur(rows[i] - first, rows[j] - first) += updates_[s](i, j);
+      });
     }
-    for (int j = 0; j < schur.columns(); ++j)
+    for_columns(schur.columns(), [&](int j) {
       for (int i = 0; i < j; ++i) schur(i, j) = schur(j, i);
+    });
   }
 
  private:
@@ -255,7 +270,9 @@ class PartialCholesky::Numbers {
     double* l = &factor_.values_[node.values];
     std::iota(place.begin() + node.first, place.begin() + node.first + n, 0);
     for (int k = 0; k < m; ++k) place[below[k]] = n + k;
-    Matrix& update = updates_[s] = Matrix(m, m);
+    Matrix& update = updates_[s] = Matrix::unfilled(m, m);
+    for_columns(n, [&](int j) { std::fill_n(l + size_t(j) * stride, stride, 0.0); });
+    for_columns(m, [&](int j) { std::fill_n(update.column(j), m, 0.0); });
 
     for (int j = 0; j < n; ++j)
       for (int k = column_start_[node.first + j]; k < column_start_[node.first + j + 1]; ++k)
@@ -263,12 +280,12 @@ class PartialCholesky::Numbers {
     for (const int child : children_[s]) {
       const int n_rows = factor_.supernodes()[child].n_below;
       const int* rows = factor_.rows_below(factor_.supernodes()[child]);
-      for (int j = 0; j < n_rows; ++j) {
+      for_columns(n_rows, [&](int j) {
         const int column = place[rows[j]];
         double* to = column < n ? l + size_t(column) * stride : update.column(column - n) - n;
         const double* from = updates_[child].column(j);
         for (int i = j; i < n_rows; ++i) to[place[rows[i]]] += from[i];
-      }
+      });
       updates_[child] = {};
     }
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, l, stride) != 0) return false;

@@ -91,7 +91,7 @@ class PartialCholesky {
   const double* columns(const Supernode& node) const { return values_.data() + node.values; }
 
   std::shared_ptr<const Analysis> analysis_;
-  std::vector<double> values_;
+  Matrix::Entries values_;
   Matrix schur_;
 };
 

@@ -379,8 +379,9 @@ double CyclicStiffness<dim>::CoupledSectors::entry(int difference, int i, int j)
 template <int dim>
 Matrix CyclicStiffness<dim>::CoupledSectors::matrix(int difference) const {
   auto result = Matrix::unfilled(n_, n_);
-  for (int j = 0; j < n_; ++j)
+  parallel_for(n_, [&](int j) {
     for (int i = 0; i < n_; ++i) result(i, j) = entry(difference, i, j);
+  });
   return result;
 }
 

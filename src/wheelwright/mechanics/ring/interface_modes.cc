@@ -17,8 +17,8 @@ namespace {
 /// their own stiffness. The coupling of a single weak mode is even smaller, and its third power is neglected.
 constexpr double weakest = 1e-3;
 
-/// Columns of a product that one thread computes.
-constexpr int columns_together = 192;
+/// Columns and rows of a product that one thread computes.
+constexpr int columns_together = 192, tile_rows = 1024;
 
 void for_column_blocks(int columns, const std::function<void(int first, int n)>& f) {
   parallel_for((columns + columns_together - 1) / columns_together, [&](int k) {
@@ -27,10 +27,16 @@ void for_column_blocks(int columns, const std::function<void(int first, int n)>&
   });
 }
 
-/// c += alpha op(a) b, shared among the threads.
+/// c += alpha op(a) b, shared among the threads in tiles: of few columns, too.
 void add_product(double alpha, const Matrix& a, Op op, const Matrix& b, Matrix& c) {
-  for_column_blocks(b.columns(), [&](int first, int n) {
-    multiply_columns(alpha, a, op, b.column(first), n, 1, c.column(first));
+  const int n_rows = c.rows(), n_columns = c.columns(), down = (n_rows + tile_rows - 1) / tile_rows,
+            across = (n_columns + columns_together - 1) / columns_together;
+  parallel_for(down * across, [&](int tile) {
+    const int row = tile % down * tile_rows, column = tile / down * columns_together;
+    cblas_dgemm(CblasColMajor, op == Op::none ? CblasNoTrans : CblasTrans, CblasNoTrans,
+                std::min(tile_rows, n_rows - row), std::min(columns_together, n_columns - column), b.rows(),
+                alpha, op == Op::none ? a.data() + row : a.column(row), std::max(1, a.rows()),
+                b.column(column), std::max(1, b.rows()), 1, c.column(column) + row, n_rows);
   });
 }
 
