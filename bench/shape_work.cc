@@ -60,19 +60,21 @@ struct Harmonics {
 };
 
 /// Of InterfaceModes: the ring's interface on the basis of its link's factor, its strong modes and the rest
-/// eliminated to second order. Products are shared in tiles of 192 columns and 1024 rows, the factor is not.
-/// The modes are found 192 at a time, with ten products each.
+/// eliminated to second order. Products are shared in tiles of 192 columns and 256 rows, triangular solutions
+/// and Gram matrices in blocks of 96 columns, and the factor is not. The modes are found 192 at a time, with
+/// ten products each.
 PartWork strong_modes(const CyclicStiffness<3>& ring, double modes) {
   const double n = ring.n_boundary() - ring.n_outer(), m = ring.n_outer(), kept = modes + m, together = 192,
-               rows = std::min(n, 1024.0);
+               rows = std::min(n, 256.0), blocked = 96;
   const double found = 1.2 * modes;  // the last block is found to be weak
   const double cholesky = cube(n) / 3;
   const double of_outer = 10 * n * n * m + 5 * n * m * m, next = 2 * cube(n);
   const double random = found * (4 * n * n + 4 * n * m) + 4 * n * square(modes);
   const double reduced = 4 * n * n * modes + 4 * 2 * n * modes * kept + 4 * n * square(kept);
   const double shared = of_outer + next + random + reduced;
-  const double chain =  // one tile of each product
-      16 * n * rows * together + 8 * kept * rows * together + 10 * 2 * n * rows * found;
+  const double chain = 12 * n * rows * together +     // a tile of each product
+                       10 * 2 * n * rows * found +    // of each product of every block of modes
+                       6 * n * (n + kept) * blocked;  // a block of each triangular solution and Gram matrix
   return {of_factors, "strong modes of the interface", cholesky + shared, cholesky + std::min(shared, chain)};
 }
 

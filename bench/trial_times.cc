@@ -64,7 +64,8 @@ class Timer {
     trials_.push_back({.iteration = trial.iteration,
                        .objective = is_solved ? trial.evaluation->function("objective").value : NAN,
                        .is_accepted = trial.verdict == Verdict::accepted,
-                       .keeps_widths = state.final_widths == FinalWidths::kept,
+                       .keeps_widths = state.final_widths == FinalWidths::kept ||
+                                       state.final_widths == FinalWidths::kept_with_sharper_corners,
                        .times = current_});
     current_ = {};
     watch_.lap();

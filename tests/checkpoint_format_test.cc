@@ -11,7 +11,7 @@
 namespace wheelwright {
 namespace {
 
-constexpr std::uint32_t format_version = 11;  // of the format
+constexpr std::uint32_t format_version = 12;  // of the format
 
 using testing::Random;
 using testing::small_grid;

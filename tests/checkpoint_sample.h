@@ -76,7 +76,7 @@ Checkpoint<dim> some_checkpoint() {
        random.numbers(3)},
       {{random.number(), 0, 2}, {random.number(), random.number(), 1}, {random.number()}, {random.number()}},
       0,
-      FinalWidths::kept};
+      FinalWidths::kept_with_sharper_corners};
   return {{"[load]\nforce = 1\n", "wheelwright 1.2.3"},
           state,
           {some_level_set<dim>(random, 1), random.number(), random.number()},

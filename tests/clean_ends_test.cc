@@ -132,6 +132,14 @@ TEST(FinalWidths, AreRepairedOnceInASeparateShape) {
   }
 }
 
+/// Holes of about four cells have room for corners with a radius of a cell, slits between staggered holes
+/// have not.
+TEST(FinalWidths, CornersAreSharperWhereThereIsNoRoom) {
+  EXPECT_EQ(course_of(case_text(start_named("Holes16On14x192"), 12)).last.final_widths, FinalWidths::kept);
+  EXPECT_EQ(course_of(case_text(start_named("Holes48StaggeredOn14x192"), 30)).last.final_widths,
+            FinalWidths::kept_with_sharper_corners);
+}
+
 TEST(FinalWidths, ShapesThatHaveThemAreUnchanged) {
   const Course course = course_of(case_text(start_named("Holes16On14x192"), 9, "minimum_radius = 0\n"));
   EXPECT_EQ(course.last.final_widths, FinalWidths::kept);

@@ -43,6 +43,17 @@ LevelSet<dim> shape_with_wall(double cells, double azimuth = 0.13) {
   return spline_level_set(spline_coefficients(psi));
 }
 
+constexpr double directions[] = {0.0, 0.35, 0.7, 1.05, 1.4};
+
+/// Two round holes with a wall between them, at this angle to the radius.
+LevelSet<2> oblique_wall(double wall, double direction) {
+  const double radius = 0.018, distance = 2 * radius + wall;
+  const Vec<2> second{0.25 + distance * std::cos(direction), distance * std::sin(direction)};
+  return spline_level_set(spline_coefficients(make_level_set<2>(
+      lattice_of<2>(), std::vector<Circle>{{0.25, 0.1, radius},
+                                           {norm(second), 0.1 + std::atan2(second[1], second[0]), radius}})));
+}
+
 /// A hole that is a square with this half of the side and corners of this radius, turned; in 3D it becomes
 /// narrower along the width.
 template <int dim>
@@ -163,20 +174,16 @@ TEST(Widths, AreThoseWithinReach) {
 /// the cubic interpolant. Measured on the curves that are fitted to the edges.
 TEST(Widths, AreThoseOfTheLevelSetItself) {
   const auto lattice = lattice_of<2>();
-  const double h = lattice.grid().resolution(), radius = 0.018;
+  const double h = lattice.grid().resolution();
   const Evolver<2> evolver(lattice, {.velocity = {},
                                      .bands = {},
                                      .space = ShapeSpace::spline,
                                      .deformation = DeformationKind::normal_speed});
   int n_widened = 0;
   for (const double cells : {1.1, 1.3, 1.7})
-    for (const double direction : {0.0, 0.35, 0.7, 1.05, 1.4}) {
-      const double minimum = cells * h, distance = 2 * radius + 0.8 * minimum;
-      const Vec<2> first{0.25, 0.0},
-          second{0.25 + distance * std::cos(direction), distance * std::sin(direction)};
-      const auto psi = spline_level_set(spline_coefficients(make_level_set<2>(
-          lattice, std::vector<Circle>{{first[0], 0.1, radius},
-                                       {norm(second), 0.1 + std::atan2(second[1], second[0]), radius}})));
+    for (const double direction : directions) {
+      const double minimum = cells * h;
+      const auto psi = oblique_wall(0.8 * minimum, direction);
       const auto made = evolver.measured(psi, {.wall = minimum});
       ASSERT_TRUE(made) << made.failure().detail;
       const double before = outline_measures(psi)->clearances.wall->width,
@@ -186,6 +193,45 @@ TEST(Widths, AreThoseOfTheLevelSetItself) {
       n_widened += before < 0.98 * minimum;
     }
   EXPECT_GE(n_widened, 8);
+}
+
+/// Walls of the level set are narrower than those of its interpolant by as much as gaps of the opposite
+/// shape.
+TEST(Widths, AreNarrowerByAsMuchInTheOppositeShape) {
+  const double h = lattice_of<2>().grid().resolution();
+  double largest = 0;
+  for (const double cells : {1.1, 1.3, 1.7})
+    for (const double direction : directions) {
+      const auto psi = oblique_wall(cells * h, direction);
+      auto opposite = psi;
+      for (double& value : opposite.values) value = -value;
+      const double width = 1.4 * cells * h;
+      const auto walls = narrow_widths(psi, {.wall = width}, 0),
+                 gaps = narrow_widths(opposite, {.gap = width}, 0);
+      ASSERT_FALSE(walls.empty());
+      ASSERT_EQ(walls.size(), gaps.size());
+      for (std::size_t k = 0; k < walls.size(); ++k) {
+        EXPECT_NEAR(walls[k].narrower, gaps[k].narrower, 1e-9 * h);
+        largest = std::max(largest, walls[k].narrower / h);
+      }
+    }
+  EXPECT_GT(largest, 1e-3);
+  EXPECT_LT(largest, 0.1);
+}
+
+/// The round ends of slots that are as wide as twice their radius lack nothing.
+TEST(Widths, RoundEndsOfSlotsAreNotNarrower) {
+  const auto lattice = lattice_of<2>();
+  const double h = lattice.grid().resolution(), radius = 1.1 * h;
+  LevelSet<2> psi{lattice, {}};
+  for (int node = 0; node < lattice.n_nodes(); ++node) {
+    const auto p = lattice.polar_point(node);
+    const double x = p[0] - 0.27, y = 0.27 * (p[1] - 0.25);
+    psi.values.push_back(radius - std::hypot(std::max(std::abs(x) - 0.03, 0.0), y));
+  }
+  const auto widths = narrow_widths(psi, {.gap = 2 * radius}, 0.3 * h);
+  ASSERT_FALSE(widths.empty());
+  for (const auto& width : widths) EXPECT_LT(width.narrower, 0.1 * h) << width.place[0];
 }
 
 /// If only a corner is far too sharp, it is rounded, and a wall that hardly lacks anything gets its width but

@@ -18,12 +18,15 @@ namespace {
 constexpr double weakest = 1e-3;
 
 /// Columns and rows of a product that one thread computes.
-constexpr int columns_together = 192, tile_rows = 1024;
+constexpr int columns_together = 192, tile_rows = 256;
+
+/// The same of whole columns.
+constexpr int whole_columns_together = 96;
 
 void for_column_blocks(int columns, const std::function<void(int first, int n)>& f) {
-  parallel_for((columns + columns_together - 1) / columns_together, [&](int k) {
-    const int first = k * columns_together;
-    f(first, std::min(columns_together, columns - first));
+  parallel_for((columns + whole_columns_together - 1) / whole_columns_together, [&](int k) {
+    const int first = k * whole_columns_together;
+    f(first, std::min(whole_columns_together, columns - first));
   });
 }
 

@@ -149,6 +149,12 @@ struct Trial {
   StatesOfCases<dim> other_solutions = {};  ///< under the load cases that follow the first
 };
 
+/// The state in which the smallest final radius of corners is enforced.
+inline FinalWidths with_sharpest_corners(const OptimizerOptions& options) {
+  return options.sharper_radius == options.final_widths.radius ? FinalWidths::kept
+                                                               : FinalWidths::kept_with_sharper_corners;
+}
+
 /// The final widths that are enforced; 0 where none are.
 inline FeatureSize enforced_widths(const OptimizerOptions& options, FinalWidths final_widths) {
   FeatureSize result = options.final_widths;

@@ -32,13 +32,18 @@ bool needs_repair(const OptimizerOptions& options, const OptimizationState<dim>&
                                   !bound_constraints(state.evaluation).empty()));
 }
 
-/// What a repair enforces, in this order until a shape has it.
+/// What a repair enforces, in this order until a shape has it without losing holes.
 template <int dim>
 std::vector<FinalWidths> widths_to_try(const OptimizerOptions& options, const OptimizationState<dim>& state) {
-  constexpr auto sharper = FinalWidths::kept_with_sharper_corners;
-  if (state.final_widths == sharper) return {sharper};
-  if (options.sharper_radius == options.final_widths.radius) return {FinalWidths::kept};
-  return {FinalWidths::kept, sharper};
+  const FinalWidths sharpest = with_sharpest_corners(options);
+  if (state.final_widths == sharpest || sharpest == FinalWidths::kept) return {sharpest};
+  return {FinalWidths::kept, sharpest};
+}
+
+template <int dim>
+bool loses_holes(const Trial<dim>& trial) {
+  return std::ranges::find(trial.events, ShapeEventKind::hole_vanished, &ShapeEvent<dim>::kind) !=
+         trial.events.end();
 }
 
 template <int dim>
@@ -179,14 +184,19 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
 template <int dim>
 typename ShapeOptimizer<dim>::Repair ShapeOptimizer<dim>::repair_widths(OptimizationState<dim>& state,
                                                                         const Observer& observer) const {
-  for (const FinalWidths widths : widths_to_try(options_, state)) {
+  const auto ways = widths_to_try(options_, state);
+  for (const FinalWidths widths : ways) {
     OptimizationState<dim> next = state;
     next.final_widths = widths;
     if (has_widths(state.shape, trials_.widths_after(next))) {
       state = std::move(next);
       return Repair::nothing;
     }
-    const std::vector<Trial<dim>> trials = trials_.repaired(next);
+    std::vector<Trial<dim>> trials = trials_.repaired(next);
+    if (widths != ways.back() && loses_holes(trials.back())) {
+      trials.back().verdict = Verdict::failed;
+      trials.back().failure = {FailureReason::too_narrow, "the radius of internal corners fills holes"};
+    }
     if (std::ranges::any_of(trials, was_interrupted<dim>)) return Repair::interrupted;
     for (std::size_t k = 0; k + 1 < trials.size(); ++k) observer(trials[k], state);
     const bool is_possible = trials.back().verdict == Verdict::accepted;
@@ -204,7 +214,7 @@ typename ShapeOptimizer<dim>::Repair ShapeOptimizer<dim>::repair_widths(Optimiza
 template <int dim>
 FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const {
   constexpr double small = 1.8, almost = 2.0 / 3;  // of the final widths
-  constexpr auto kept = FinalWidths::kept_with_sharper_corners;
+  const FinalWidths kept = with_sharpest_corners(options_);
   const FeatureSize widths = enforced_widths(options_, kept);
   const bool has_small_holes =
       widths.gap > 0 && !narrowest_places(shape, {.wall = 0, .gap = small * widths.gap}).empty();
@@ -217,8 +227,8 @@ FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const 
 template <int dim>
 bool ShapeOptimizer<dim>::begins_with_sharp_corners(const OptimizationState<dim>& state) const {
   constexpr double enough = 0.99;  // of the radius: repaired shapes have it up to a thousandth
-  return state.history.size() == 1 &&
-         !has_widths(state.shape, {.radius = enough * enforced_widths(options_, state.final_widths).radius});
+  const double radius = enforced_widths(options_, state.final_widths).radius;
+  return radius > 0 && state.history.size() == 1 && !has_widths(state.shape, {.radius = enough * radius});
 }
 
 template <int dim>

@@ -124,8 +124,8 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
       state_(state),
       space_(evolver.deformations(), state.shape.lattice.grid(), options.design_lines.size()),
       constraints_(bound_constraints(state.evaluation)),
-      widths_(narrow_widths_of_level_set(state.shape, widths_after(evolver.features(), options, state),
-                                         2 * state.step * state.shape.lattice.grid().resolution())),
+      widths_(narrow_widths_with_margin(state.shape, widths_after(evolver.features(), options, state),
+                                        2 * state.step * state.shape.lattice.grid().resolution())),
       motion_(evolver.deformations().motion_of(state.shape, state.evaluation.boundary)) {
   for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.move);
   for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.change);

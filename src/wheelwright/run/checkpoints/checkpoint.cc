@@ -11,7 +11,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT", state_kind = "STAT", evaluation_kind = "EVAL";
-constexpr std::uint32_t format_version = 11;
+constexpr std::uint32_t format_version = 12;
 
 constexpr int saved_own_unit = static_cast<int>(UnitKind::power) + 1;
 

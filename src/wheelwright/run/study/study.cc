@@ -321,14 +321,15 @@ EvolutionOptions evolution_options(const Case& c) {
 
 /// The widths at the end, unless the case gives them for all shapes: walls of a cell plus a margin, gaps of
 /// one and a half cells, and internal corners with a radius of a cell, or of three quarters where the shape
-/// has no room for them. A given gap must have room for such corners. For level sets of degree 1, no radius
+/// has no room for them. A given gap limits the radius to half of it. For level sets of degree 1, no radius
 /// and gaps of about a cell.
 template <int dim>
 void set_final_widths(OptimizerOptions& options, const Case& c) {
   constexpr double wall = 1.05, round_gap = 1.5, gap_of_degree_1 = 1.12, radius = 1, sharper = 0.75;
   const Optimizer& o = c.optimizer;
   const bool is_round = level_set_degree(c) > 1, has_radius = is_round && !o.minimum_radius;
-  const double cell = polar_grid<dim>(c).resolution(), largest = 0.5 * o.minimum_gap.value_or(2 * cell);
+  const double cell = polar_grid<dim>(c).resolution(),
+               largest = 0.5 * o.minimum_gap.value_or(2 * radius * cell);
   options.final_widths = {.wall = o.minimum_wall ? 0 : wall * cell,
                           .gap = o.minimum_gap ? 0 : (is_round ? round_gap : gap_of_degree_1) * cell,
                           .radius = has_radius ? std::min(radius * cell, largest) : 0};
@@ -394,7 +395,10 @@ Expected<Study<dim>> make_study(const Case& source, int level) {
   EvolutionOptions evolution = evolution_options(c);
   evolution.cut_points = (*solver)->model().points_in_cut_cells();
   OptimizerOptions optimizer = optimizer_options<dim>(c);
-  if (level > 0) optimizer.final_widths = {};  // the case's own grid has its own cells
+  if (level > 0) {  // the case's own grid has its own cells
+    optimizer.final_widths = {};
+    optimizer.sharper_radius = 0;
+  }
   return Study<dim>{.source = source,
                     .level = level,
                     .solver = *std::move(solver),

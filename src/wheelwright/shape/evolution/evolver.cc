@@ -271,7 +271,7 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const 
   for (int turn = 0;; ++turn) {
     auto shape = measure(std::move(psi));
     if (!shape || !size.any()) return shape;
-    const auto widths = narrow_widths_of_level_set(shape->shape, size, reach);
+    const auto widths = narrow_widths_with_margin(shape->shape, size, reach);
     const double gap = largest_gap(widths);
     if (!std::isfinite(gap)) return Failure{FailureReason::not_finite, "a width of the shape"};
     const auto hole = gap <= enough ? small_hole(shape->shape, sampled * size.gap) : std::nullopt;

@@ -182,34 +182,54 @@ std::vector<Vec<dim>> sideways(const Vec<dim>& across) {
   }
 }
 
-/// A chord, and those beside it up to a cell away, where both sides reach so far.
+/// Shifts by up to a cell along the sides of a chord.
 template <int dim>
-std::vector<Chord<dim>> with_chords_beside(const CubicInterpolant<dim>& psi, const Chord<dim>& chord) {
-  const Lattice<dim>& lattice = psi.lattice();
-  const Vec<dim> p = cartesian_position<dim>(lattice, chord[0]),
-                 q = cartesian_position<dim>(lattice, chord[1]);
-  std::vector<Chord<dim>> result{chord};
-  for (const auto& direction : sideways<dim>(q - p))
-    for (const double cells : {-1.0, -2.0 / 3, -1.0 / 3, 1.0 / 3, 2.0 / 3, 1.0}) {
-      const Vec<dim> shift = cells * lattice.grid().resolution() * direction;
-      const auto first = project_to_zero<dim>(psi, in_units<dim>(lattice, p + shift)),
-                 second = project_to_zero<dim>(psi, in_units<dim>(lattice, q + shift));
-      if (first && second) result.push_back({*first, *second});
-    }
+std::vector<Vec<dim>> shifts_along_sides(const Vec<dim>& across, double cell) {
+  std::vector<Vec<dim>> result;
+  for (const auto& direction : sideways<dim>(across))
+    for (const double cells : {-1.0, -2.0 / 3, -1.0 / 3, 1.0 / 3, 2.0 / 3, 1.0})
+      result.push_back(cells * cell * direction);
   return result;
 }
 
+/// The point of the boundary next to a shifted one.
 template <int dim>
-double intrusion(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<dim>& chord) {
-  return intrusion<dim>(psi, kind, chord[0]) + intrusion<dim>(psi, kind, chord[1]);
+std::optional<Vec<dim>> shifted_along_boundary(const CubicInterpolant<dim>& psi, const Vec<dim>& point,
+                                               const Vec<dim>& shift) {
+  const Lattice<dim>& lattice = psi.lattice();
+  return project_to_zero<dim>(psi, in_units<dim>(lattice, cartesian_position<dim>(lattice, point) + shift));
 }
 
+/// Width::narrower of a chord. Where the sides diverge along them, less is missing.
 template <int dim>
-double largest_intrusion(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<dim>& chord) {
-  double largest = 0;
-  for (const auto& beside : with_chords_beside<dim>(psi, chord))
-    largest = std::max(largest, intrusion<dim>(psi, kind, beside));
-  return largest;
+double narrower(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<dim>& chord) {
+  const Lattice<dim>& lattice = psi.lattice();
+  const Vec<dim> across =
+      cartesian_position<dim>(lattice, chord[1]) - cartesian_position<dim>(lattice, chord[0]);
+  const double length = norm(across);
+  double result = std::max(0.0, intrusion<dim>(psi, kind, chord[0]) + intrusion<dim>(psi, kind, chord[1]));
+  for (const auto& shift : shifts_along_sides<dim>(across, lattice.grid().resolution())) {
+    const auto p = shifted_along_boundary<dim>(psi, chord[0], shift),
+               q = shifted_along_boundary<dim>(psi, chord[1], shift);
+    if (!p || !q) continue;
+    const double longer = std::max(0.0, physical_distance<dim>(lattice, *p, *q) - length);
+    result = std::max(result, intrusion<dim>(psi, kind, *p) + intrusion<dim>(psi, kind, *q) - longer);
+  }
+  return result;
+}
+
+/// The same of a wall to a side face, whose edges are as far apart as the place of the boundary from its
+/// foot.
+template <int dim>
+double narrower(const CubicInterpolant<dim>& psi, const FaceWall<dim>& wall) {
+  const Lattice<dim>& lattice = psi.lattice();
+  const Vec<dim> across =
+      cartesian_position<dim>(lattice, wall.foot) - cartesian_position<dim>(lattice, wall.point);
+  double result = std::max(0.0, intrusion<dim>(psi, WidthKind::wall, wall.point));
+  for (const auto& shift : shifts_along_sides<dim>(across, lattice.grid().resolution()))
+    if (const auto point = shifted_along_boundary<dim>(psi, wall.point, shift))
+      result = std::max(result, intrusion<dim>(psi, WidthKind::wall, *point));
+  return result;
 }
 
 /// The dependence on the coefficients of a value with the given derivatives with respect to the normal speeds
@@ -230,16 +250,12 @@ Width<dim> width_of(const CubicInterpolant<dim>& psi, WidthKind kind, const Chor
   const Vec<dim> p = cartesian_position<dim>(psi.lattice(), chord[0]),
                  q = cartesian_position<dim>(psi.lattice(), chord[1]);
   const double outward = outward_of(kind);
-  double narrower = 0;
-  for (const auto& beside : with_chords_beside<dim>(psi, chord))
-    narrower = std::max(narrower, norm(q - p) - physical_distance<dim>(psi.lattice(), beside[0], beside[1]) +
-                                      intrusion<dim>(psi, kind, beside));
   return {.kind = kind,
           .value = norm(q - p),
           .minimum = 0,
           .place = polar<dim>(0.5 * (p + q)),
           .slopes = dependence_on_ends<dim>(psi, chord, {outward, outward}),
-          .narrower = narrower};
+          .narrower = narrower<dim>(psi, kind, chord)};
 }
 
 /// The ball that touches the boundary at a point with this outward normal and passes through another point.
@@ -312,7 +328,7 @@ Width<dim> width_to_face(const CubicInterpolant<dim>& psi, const FaceWall<dim>& 
           .minimum = 0,
           .place = polar<dim>(middle),
           .slopes = displacement<dim>(psi, wall.point),
-          .narrower = std::max(0.0, intrusion<dim>(psi, WidthKind::wall, wall.point))};
+          .narrower = narrower<dim>(psi, wall)};
 }
 
 template <int dim>
@@ -326,7 +342,7 @@ Width<dim> width_at(const MedialBalls<dim>& medial, const NarrowPlace<dim>& narr
     if (chord) return width_of<dim>(psi, narrow.kind, *chord);
   }
   auto [width, touched] = width_of_ball<dim>(medial, narrow.kind, narrow.ball);
-  if (is_critical) width.narrower = largest_intrusion<dim>(psi, narrow.kind, touched);
+  if (is_critical) width.narrower = narrower<dim>(psi, narrow.kind, touched);
   return width;
 }
 
@@ -402,8 +418,8 @@ std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSiz
 }
 
 template <int dim>
-std::vector<Width<dim>> narrow_widths_of_level_set(const LevelSet<dim>& psi, const FeatureSize& size,
-                                                   double reach) {
+std::vector<Width<dim>> narrow_widths_with_margin(const LevelSet<dim>& psi, const FeatureSize& size,
+                                                  double reach) {
   auto widths = narrow_widths(psi, size, reach);
   for (auto& width : widths) width.minimum += width.narrower;
   return widths;
@@ -427,11 +443,11 @@ std::vector<double> gap_load(const BoundaryMotion<dim>& motion, const Width<dim>
 }
 
 template decltype(narrow_widths<2>) narrow_widths<2>;
-template decltype(narrow_widths_of_level_set<2>) narrow_widths_of_level_set<2>;
+template decltype(narrow_widths_with_margin<2>) narrow_widths_with_margin<2>;
 template decltype(largest_gap<2>) largest_gap<2>;
 template decltype(gap_load<2>) gap_load<2>;
 template decltype(narrow_widths<3>) narrow_widths<3>;
-template decltype(narrow_widths_of_level_set<3>) narrow_widths_of_level_set<3>;
+template decltype(narrow_widths_with_margin<3>) narrow_widths_with_margin<3>;
 template decltype(largest_gap<3>) largest_gap<3>;
 template decltype(gap_load<3>) gap_load<3>;
 

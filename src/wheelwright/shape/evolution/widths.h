@@ -22,9 +22,8 @@ struct Width {
   Vec<dim> place;  ///< of the middle of the ball, or of the corner: radius, azimuth[, axial], in the sector
                    ///< [m, rad[, m]]
   std::vector<Dependence> slopes;  ///< derivatives of the value by the coefficients of the shape's spline
-  /// By how much the wall or gap of the level set itself, a polynomial in each cell, is narrower than that of
-  /// its cubic interpolant, from which the value is, at most half a cell away along its sides; at least 0
-  /// [m].
+  /// How much narrower the wall or gap is between the edges of the level set itself than between those of its
+  /// cubic interpolant, which `value` measures: the most within a cell along its sides; at least 0 [m].
   double narrower = 0;
 
   /// The missing width relative to the minimum; negative if there is none. At corners, the relative excess of
@@ -39,10 +38,11 @@ struct Width {
 template <int dim>
 std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSize& size, double reach);
 
-/// The same, with minimum widths for the interpolant that give the level set itself those of `size`.
+/// The same, with minimum widths that are larger by `narrower`: with them the level set itself has those of
+/// `size`.
 template <int dim>
-std::vector<Width<dim>> narrow_widths_of_level_set(const LevelSet<dim>& psi, const FeatureSize& size,
-                                                   double reach);
+std::vector<Width<dim>> narrow_widths_with_margin(const LevelSet<dim>& psi, const FeatureSize& size,
+                                                  double reach);
 
 /// The missing part of the most critical width, relative; 0 if none, NaN if a width is not finite.
 template <int dim>
