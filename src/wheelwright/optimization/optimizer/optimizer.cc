@@ -32,7 +32,7 @@ bool needs_repair(const OptimizerOptions& options, const OptimizationState<dim>&
                                   !bound_constraints(state.evaluation).empty()));
 }
 
-/// What a repair enforces, in this order until a shape has it without losing holes.
+/// What a repair enforces, in this order until a shape has it and is not ruined by it.
 template <int dim>
 std::vector<FinalWidths> widths_to_try(const OptimizerOptions& options, const OptimizationState<dim>& state) {
   const FinalWidths sharpest = with_sharpest_corners(options);
@@ -40,10 +40,17 @@ std::vector<FinalWidths> widths_to_try(const OptimizerOptions& options, const Op
   return {FinalWidths::kept, sharpest};
 }
 
+/// Whether a repaired shape has lost holes, or so much of the objective that the search would hardly recover.
 template <int dim>
-bool loses_holes(const Trial<dim>& trial) {
-  return std::ranges::find(trial.events, ShapeEventKind::hole_vanished, &ShapeEvent<dim>::kind) !=
-         trial.events.end();
+bool is_ruined(const OptimizerOptions& options, const OptimizationState<dim>& state,
+               const Trial<dim>& trial) {
+  constexpr double much = 0.1;  // of the objective
+  if (!trial.evaluation) return false;
+  const auto objective_of = [&](const Evaluation<dim>& e) { return e.function(options.objective).value; };
+  const double before = objective_of(state.evaluation);
+  return objective_of(*trial.evaluation) > before + much * std::abs(before) ||
+         std::ranges::find(trial.events, ShapeEventKind::hole_vanished, &ShapeEvent<dim>::kind) !=
+             trial.events.end();
 }
 
 template <int dim>
@@ -193,9 +200,9 @@ typename ShapeOptimizer<dim>::Repair ShapeOptimizer<dim>::repair_widths(Optimiza
       return Repair::nothing;
     }
     std::vector<Trial<dim>> trials = trials_.repaired(next);
-    if (widths != ways.back() && loses_holes(trials.back())) {
+    if (widths != ways.back() && is_ruined(options_, state, trials.back())) {
       trials.back().verdict = Verdict::failed;
-      trials.back().failure = {FailureReason::too_narrow, "the radius of internal corners fills holes"};
+      trials.back().failure = {FailureReason::too_narrow, "round corners cost too much"};
     }
     if (std::ranges::any_of(trials, was_interrupted<dim>)) return Repair::interrupted;
     for (std::size_t k = 0; k + 1 < trials.size(); ++k) observer(trials[k], state);
