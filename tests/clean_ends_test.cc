@@ -132,8 +132,8 @@ TEST(FinalWidths, AreRepairedOnceInASeparateShape) {
   }
 }
 
-/// Holes of about four cells have room for corners with a radius of a cell, slits between staggered holes
-/// have not.
+/// Holes of about four cells have room for corners with a radius of a cell; what remains of staggered holes
+/// does not.
 TEST(FinalWidths, CornersAreSharperWhereThereIsNoRoom) {
   EXPECT_EQ(course_of(case_text(start_named("Holes16On14x192"), 12)).last.final_widths, FinalWidths::kept);
   EXPECT_EQ(course_of(case_text(start_named("Holes48StaggeredOn14x192"), 30)).last.final_widths,

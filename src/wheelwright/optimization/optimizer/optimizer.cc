@@ -32,7 +32,7 @@ bool needs_repair(const OptimizerOptions& options, const OptimizationState<dim>&
                                   !bound_constraints(state.evaluation).empty()));
 }
 
-/// What a repair enforces, in this order until a shape has it and is not ruined by it.
+/// A repair tries these widths in turn, until it finds a shape that has them and is not ruined.
 template <int dim>
 std::vector<FinalWidths> widths_to_try(const OptimizerOptions& options, const OptimizationState<dim>& state) {
   const FinalWidths sharpest = with_sharpest_corners(options);

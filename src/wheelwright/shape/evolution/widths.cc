@@ -200,7 +200,8 @@ std::optional<Vec<dim>> shifted_along_boundary(const CubicInterpolant<dim>& psi,
   return project_to_zero<dim>(psi, in_units<dim>(lattice, cartesian_position<dim>(lattice, point) + shift));
 }
 
-/// Width::narrower of a chord. Beside it, where the wall or gap is wider, less is missing.
+/// Width::narrower of a chord. Where the wall or gap becomes wider beside it, that counts against the
+/// intrusion.
 template <int dim>
 double narrower(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<dim>& chord) {
   const Lattice<dim>& lattice = psi.lattice();
@@ -218,7 +219,7 @@ double narrower(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<di
   return result;
 }
 
-/// The same of a wall to a side face; that it is thicker beside its thinnest place is not counted.
+/// The same for a wall to a side face. It ignores that the wall is thicker beside its thinnest place.
 template <int dim>
 double narrower(const CubicInterpolant<dim>& psi, const FaceWall<dim>& wall) {
   const Lattice<dim>& lattice = psi.lattice();
